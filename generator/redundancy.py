@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import scale_rows
 from gudgeon.assembly.mobility import check_degrees_of_freedom, find_mobility
-from gudgeon.assembly.rank import RANK, SAMPLES, compute_left_null_maxima, compute_rank, find_nearby_configurations
+from gudgeon.assembly.rank import (
+    N_NEARBY_CONFIGURATIONS,
+    RANK_TOL,
+    compute_left_null_maxima,
+    compute_rank,
+    find_nearby_configurations,
+)
 from gudgeon.assembly.start import search_start
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
@@ -42,7 +48,11 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
             q = search_start(linkage, linkage.p).q
             start = scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             configurations_near_start = find_nearby_configurations(
-                linkage, linkage.p, q, rows_of_scene, SAMPLES if compute_rank(start) < len(rows_of_scene) else 0
+                linkage,
+                linkage.p,
+                q,
+                rows_of_scene,
+                N_NEARBY_CONFIGURATIONS if compute_rank(start) < len(rows_of_scene) else 0,
             )
             matrices = [
                 scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, configuration, linkage.p)[rows_of_scene])
@@ -84,7 +94,7 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
     rows_of_scene = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
         configurations_near_start = find_nearby_configurations(
-            linkage, linkage.p, search_start(linkage, linkage.p).q, rows_of_scene, SAMPLES
+            linkage, linkage.p, search_start(linkage, linkage.p).q, rows_of_scene, N_NEARBY_CONFIGURATIONS
         )
         has_mass = linkage.mass(linkage.p) > 0.0
         matrices = [
@@ -94,7 +104,7 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
         motions_of_min_mass = [_find_motion_of_min_mass(matrix, has_mass) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
-    if all(fraction <= RANK for fraction, _ in motions_of_min_mass):
+    if all(fraction <= RANK_TOL for fraction, _ in motions_of_min_mass):
         motion = motions_of_min_mass[-1][1]
         name = max(bodies_without_inertia, key=lambda body: abs(motion[bodies_without_inertia[body]]))
         inertia = bodies[name].inertia
@@ -119,7 +129,7 @@ def _find_motion_of_min_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple
         np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(has_mass)))
     )
     motions_without_constraint = right_vectors[
-        int((singular_values > RANK * singular_values.max(initial=0.0)).sum()) :
+        int((singular_values > RANK_TOL * singular_values.max(initial=0.0)).sum()) :
     ].T
     _, fractions, motions = np.linalg.svd(motions_without_constraint[has_mass])
     return float(fractions[-1]) if len(fractions) == motions_without_constraint.shape[
@@ -139,7 +149,7 @@ def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: i
     for r in order:
         remainder = matrix[r] - (basis @ matrix[r]) @ basis
         remainder = remainder - (basis @ remainder) @ basis
-        if len(basis) < rank_of_matrix and np.linalg.norm(remainder) > 10 * RANK * np.linalg.norm(matrix[r]):
+        if len(basis) < rank_of_matrix and np.linalg.norm(remainder) > 10 * RANK_TOL * np.linalg.norm(matrix[r]):
             basis = np.vstack([basis, remainder / np.linalg.norm(remainder)])
         else:
             redundant.append(r)

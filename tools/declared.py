@@ -24,7 +24,7 @@ HEAD = '''"""What cffi makes of the engine's declarations: written by tools/decl
 
 from _cffi_backend import FFI
 
-OF = "{of}"  # SHA-256 of these declarations
+SHA256 = "{of}"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
 '''

@@ -22,7 +22,7 @@ from gudgeon.loading import compiler
 from gudgeon.loading.build import build_portable_library
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.library import CARRIED, compute_library_file_name, format_platform
+from gudgeon.loading.library import BUNDLED_FOLDER, compute_library_file_name, format_platform
 
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)
@@ -38,7 +38,7 @@ def read_all_scenes(generated: Path, mechanism: str = "*") -> list[KernelSource]
 def compile_libraries(machine: str, scenes: list[KernelSource], folder: Path) -> None:
     """Compile the libraries of scenes into a folder, for Linux on a machine."""
     target = f"{machine}-linux-gnu.{GLIBC[0]}.{GLIBC[1]}"
-    os.environ["CC"] = " ".join([str(compiler.find_zig()), "cc", *compiler.ZIG, "-s", "-target", target])
+    os.environ["CC"] = " ".join([str(compiler.find_zig()), "cc", *compiler.ZIG_FLAGS, "-s", "-target", target])
     folder.mkdir(parents=True)
     with tempfile.TemporaryDirectory() as scratch:
         cache = Cache(Path(scratch) / "cache")
@@ -58,7 +58,7 @@ def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None =
         settings = {}
         if machine:
             compile_libraries(
-                machine, scenes or [], copy / "src/gudgeon" / CARRIED.name / format_platform("linux", machine)
+                machine, scenes or [], copy / "src/gudgeon" / BUNDLED_FOLDER.name / format_platform("linux", machine)
             )
             settings["--build-option"] = f"--plat-name=manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
         code = f"import setuptools.build_meta as b; b.build_wheel({str(out.resolve())!r}, {settings!r})"

@@ -1,8 +1,7 @@
-"""Find the assemblies of a linkage: closed configurations that no motion connects, each with a guess that selects
-it.
+"""Find the assemblies of a linkage: its closed configurations (assembly modes), each with a guess that selects it.
 
-Newton's method starts from many random angles; different results are collected until no new one was found for a while.
-Coordinates that can move are held at their values at the start.
+Newton's method starts from many random angles; different results are collected until MAX_IDLE_TRIES starts find no new
+one. Coordinates that can move are held at their values at the start.
 """
 
 from __future__ import annotations
@@ -18,8 +17,8 @@ from gudgeon.assembly.guess_warnings import MIN_DIFFERENCE
 from gudgeon.assembly.linkage import Linkage
 from gudgeon.model.compiled import Array
 
-MOST_TRIES, IDLE = 600, 60  # largest number of starts, and of successive starts without a new result
-SAME = 1e-5  # rad, or relative to the size: closer configurations are the same
+MAX_TRIES, MAX_IDLE_TRIES = 600, 60  # largest number of starts, and of successive starts without a new result
+CONFIGURATION_TOL = 1e-5  # rad, or relative to the size: closer configurations are the same
 
 
 @dataclass(frozen=True)
@@ -66,12 +65,12 @@ def find_assemblies(
 def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> list[Array]:
     """Return the configurations found from random starts, without repetitions; `start` is the first.
 
-    The search ends after MOST_TRIES starts, or IDLE successive ones without a new result. Angles that differ by full
-    turns are the same.
+    The search ends after MAX_TRIES starts, or MAX_IDLE_TRIES successive ones without a new result. Angles that differ
+    by full turns are the same.
     """
     rng, configurations, idle = np.random.default_rng(1), [start], 0
     spread = np.where(problem.is_angle, np.pi, problem.size)
-    for _ in range(MOST_TRIES):
+    for _ in range(MAX_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
         x[problem.set_index] = problem.set
         x = problem.solve_newton(problem.determine_angles(x))
@@ -81,24 +80,24 @@ def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> lis
             and not any(_are_same_configuration(problem, x, y) for y in configurations)
         )
         configurations, idle = ([*configurations, x], 0) if new else (configurations, idle + 1)
-        if idle >= IDLE:
+        if idle >= MAX_IDLE_TRIES:
             break
     return configurations
 
 
 def _compute_differences(problem: AssemblyProblem, x: Array, y: Array) -> Array:
-    """Return the magnitudes (n,) of the differences of two configurations: angles in rad within half a turn, lengths
-    over the size.
+    """Return the magnitudes (n,) of the differences of two configurations.
+
+    Angles are in rad within half a turn, lengths relative to the mechanism's size.
     """
     difference = x - y
     return np.abs(np.where(problem.is_angle, (difference + np.pi) % (2.0 * np.pi) - np.pi, difference / problem.size))
 
 
 def compute_guess_distance(problem: AssemblyProblem, x: Array, y: Array) -> float:
-    """Return the largest difference of two configurations in guessed coordinates and points: rad, or relative to the
-    size.
+    """Return the largest difference of two configurations in guessed coordinates and points; 0 without guesses.
 
-    It is 0 without guesses.
+    Angles are in rad, lengths relative to the mechanism's size.
     """
     points = [
         problem.compute_point_error(x, point, np.zeros(2)) - problem.compute_point_error(y, point, np.zeros(2))
@@ -109,16 +108,17 @@ def compute_guess_distance(problem: AssemblyProblem, x: Array, y: Array) -> floa
 
 
 def _are_same_configuration(problem: AssemblyProblem, x: Array, y: Array) -> bool:
-    """Return whether two configurations differ by less than SAME in every coordinate."""
-    return bool(_compute_differences(problem, x, y).max(initial=0.0) < SAME)
+    """Return whether two configurations differ by less than CONFIGURATION_TOL in every coordinate."""
+    return bool(_compute_differences(problem, x, y).max(initial=0.0) < CONFIGURATION_TOL)
 
 
 def _select_distinguishing_coordinates(
     configurations: Sequence[Array], problem: AssemblyProblem, preferred_order: Sequence[int]
 ) -> list[int]:
-    """Return the indices of few coordinates in which all configurations differ from each other.
+    """Return the indices of few coordinates by which all configurations can be distinguished.
 
-    They are chosen greedily by the number of pairs that they separate; `preferred_order`: preference among equals.
+    They are selected greedily by the number of pairs that differ in them by more than MIN_DIFFERENCE.
+    `preferred_order`: indices of coordinates, the first of which is preferred among equals.
     """
     selected: list[int] = []
     pairs = [_compute_differences(problem, x, y) for x, y in combinations(configurations, 2)]

@@ -12,31 +12,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.guess_warnings import MIN_DIFFERENCE
-from gudgeon.assembly.large import LARGE, solve_damped_least_squares, solve_minimum_norm
+from gudgeon.assembly.large import MIN_SPARSE_COORDINATES, solve_damped_least_squares, solve_minimum_norm
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position, find_angles
 from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
-FAR = 0.5  # rad: if a guessed angle turns further, or a point moves by MIN_DIFFERENCE, more starts are tried
-MIRRORED = 0.1  # of that: if a guess is further off, starts on its other side are tried
-# starts from other angles; coordinates from which on fewer are tried; factor of a longer search
-TRIES, MANY, MORE = 24, 60, 5
-AWAY = 1e3  # of the size that drives and start require: a body further from the origin is lost
-CLOSED = 1e-10  # a residual above this fraction of the mechanism's size is not an assembly
-ROUNDING = 1e-14  # the same, relative to the largest distance from the origin
-HELD = 1e-6  # norm below which a Jacobian serves the next steps too, as long as the norm falls to a tenth (closing.c)
-NEARER = 1e-5  # smallest relative difference of distance at which another configuration counts as nearer
+# rad: if a guessed angle turns further, or a point moves by MIN_DIFFERENCE, more starts are tried
+MAX_GUESS_ERROR_RAD = 0.5
+MIN_MIRRORED_ERROR = 0.1  # of these limits: if a guess has a larger error, starts mirrored in the guess are tried
+# random starts; coordinates above which a quarter of them is tried; number of searches if all results are far
+N_RANDOM_STARTS, MANY_COORDINATES, N_SEARCHES = 24, 60, 5
+MAX_RELATIVE_DISTANCE = 1e3  # of the size that drives and start require: a body further from the origin is lost
+CLOSURE_TOL = 1e-10  # a residual above this fraction of the mechanism's size is not an assembly
+ROUNDING_TOL = 1e-14  # the same, relative to the largest distance from the origin
+# norm below which a Jacobian is reused in the next steps, as long as the norm falls to a tenth (closing.c)
+MAX_REUSE_NORM = 1e-6
+MIN_RELATIVE_GAIN = 1e-5  # smallest relative difference of distance at which another configuration counts as nearer
 
 # Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
-GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
-NOTHING: Mapping[str, float] = {}
+GUESS_WEIGHT, ANGLE_WEIGHT, POSITION_WEIGHT = 1.0, 1e-2, 1e-4
+NO_VALUES: Mapping[str, float] = {}
 
 
 class AssemblyProblem:
     """Hold the assembly of a linkage: constraint equations (all joints without play), `start.set`, and weights."""
 
-    def __init__(self, linkage: Linkage, p: Array, t: float, held_values: Mapping[str, float] = NOTHING) -> None:
+    def __init__(self, linkage: Linkage, p: Array, t: float, held_values: Mapping[str, float] = NO_VALUES) -> None:
         source = linkage.source
         self.linkage, self.p, self.t = linkage, p, t
         self.coordinate_index = {name: k for k, name in enumerate(source.coordinates)}
@@ -54,17 +56,17 @@ class AssemblyProblem:
         self.units = [row.unit for row in source.start_rows]
         self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
-        self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
-        message = dict(zip(source.start_guess, guess.tolist(), strict=True))
-        self.guess = {name: value for name, value in message.items() if name in self.coordinate_index}
+        self.weight = np.where(self.is_angle, ANGLE_WEIGHT, POSITION_WEIGHT / self.size)
+        guess_values = dict(zip(source.start_guess, guess.tolist(), strict=True))
+        self.guess = {name: value for name, value in guess_values.items() if name in self.coordinate_index}
         self.guessed = [self.coordinate_index[name] for name in self.guess]
         self.points = [
-            (point, np.array([message[f"{point.name}.x"], message[f"{point.name}.y"]]))
+            (point, np.array([guess_values[f"{point.name}.x"], guess_values[f"{point.name}.y"]]))
             for point in source.points
-            if f"{point.name}.x" in message
+            if f"{point.name}.x" in guess_values
         ]
-        self.first_guess = np.zeros(len(self.coordinate_index))  # with the angles that equations determine
-        self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
+        self.first_guess = np.zeros(len(self.coordinate_index))  # set by build_first_guess
+        self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESS_WEIGHT, GUESS_WEIGHT / self.size)
 
     def compute_residual(self, q: Array, p: Array | None = None) -> Array:
         """Return the residuals of all equations (constraint equations, then set coordinates) in m or rad.
@@ -86,7 +88,7 @@ class AssemblyProblem:
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
 
     def find_least_squares_configuration(self, q: Array, p: Array) -> Array:
-        """Return the configuration with the least sum of squared residuals for parameter values p, found from q."""
+        """Return the configuration of least squared residuals for parameter values p, by Levenberg–Marquardt from q."""
         return self._minimize_residual(
             q,
             lambda x: self.compute_residual(x, p) / self.row_scale,
@@ -104,7 +106,7 @@ class AssemblyProblem:
     def _compute_newton_step(
         self, q: Array, scaled_residual: Array, columns: NDArray[np.bool_] | slice = slice(None)
     ) -> Array:
-        """Return the step (n,) of least weighted norm that closes the equations linearized at q with these residuals.
+        """Return the Newton step (n,) of least weighted norm for the equations linearized at q, with these residuals.
 
         columns: mask of the coordinates that may change. The step is 0 if a number is not finite; with dependent
         equations it is a least-squares step.
@@ -113,7 +115,7 @@ class AssemblyProblem:
         matrix = self.compute_jacobian(q)[:, columns] / self.row_scale[:, None] / weight
         target, step = -scaled_residual, np.zeros_like(q)
         if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
-            use_nearest_step = len(self.coordinate_index) >= LARGE and len(matrix) > matrix.shape[1]
+            use_nearest_step = len(self.coordinate_index) >= MIN_SPARSE_COORDINATES and len(matrix) > matrix.shape[1]
             step[columns] = (solve_damped_least_squares if use_nearest_step else solve_minimum_norm)(
                 matrix, target
             ) / weight
@@ -133,10 +135,10 @@ class AssemblyProblem:
         return self._fit_guessed_points(q) if self.points else q
 
     def find_nearest_configuration(self) -> tuple[Array, bool]:
-        """Return the closed configuration nearest to the guess and True; or the best open one and False.
+        """Return the closed configuration nearest to the guess and True; or that of least residual and False.
 
-        Newton's result may not be the nearest. If it is far from the guess, the configuration beyond the guess is
-        tried. If all results are far away or open, other starts are tried.
+        Newton's result may not be the nearest. If it is far from the guess, a start mirrored in the guess is tried. If
+        all results are far from the guess or not closed, random starts are tried.
         """
         guess = self.build_first_guess()
         first_result = self.solve_newton(guess)
@@ -157,7 +159,7 @@ class AssemblyProblem:
         if closed_results:  # none is near enough: more starts
             results = [
                 self.solve_newton(other)
-                for seed in range(1, MORE)
+                for seed in range(1, N_SEARCHES)
                 for other in self._draw_random_starts(guess, 1.0, seed)
             ]
             more = (self.unwind_angles(q) for q in results if self._is_assembly(q))
@@ -165,15 +167,15 @@ class AssemblyProblem:
         return min(near_results, key=self.compute_norm, default=guess), False
 
     def _is_assembly(self, q: Array) -> bool:
-        """Return whether a configuration satisfies all equations and no body is lost far away."""
+        """Return whether a configuration is closed with all bodies in range (`is_closed`, `has_bodies_in_range`)."""
         return self.is_closed(q) and self.has_bodies_in_range(q)
 
     def _search_beyond_guess(self, closed_configuration: Array, guess: Array) -> Array:
-        """Return `closed_configuration`, or one nearer to the guess, found from starts on the guess's other side.
+        """Return `closed_configuration`, or one nearer to the guess, found from starts mirrored in the guess.
 
-        Nothing is searched if `closed_configuration` is near the guess.
+        Nothing is searched if the error of the guess is below MIN_MIRRORED_ERROR of the limits for more starts.
         """
-        if self._compute_relative_guess_error(closed_configuration) < MIRRORED:
+        if self._compute_relative_guess_error(closed_configuration) < MIN_MIRRORED_ERROR:
             return closed_configuration
         beyond, mixed = 2.0 * guess - closed_configuration, closed_configuration.copy()
         mixed[self.guessed] = beyond[self.guessed]
@@ -183,16 +185,16 @@ class AssemblyProblem:
             if not self._is_assembly(other):
                 continue
             other = self.unwind_angles(other)
-            if self.compute_distance(other) < (1.0 - NEARER) * self.compute_distance(closed_configuration):
+            if self.compute_distance(other) < (1.0 - MIN_RELATIVE_GAIN) * self.compute_distance(closed_configuration):
                 closed_configuration = other
         return closed_configuration
 
     def compute_distance(self, q: Array) -> float:
-        """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size.
+        """Return the weighted norm of a configuration's distance from the guess; points count relative to the size.
 
         With guessed points only guessed coordinates count.
         """
-        off = [self.compute_point_error(q, point, target) * (GUESSED / self.size) for point, target in self.points]
+        off = [self.compute_point_error(q, point, target) * (GUESS_WEIGHT / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
         return float(np.linalg.norm(np.concatenate([(q - self.first_guess) * self.weight * free, *off])))
 
@@ -201,7 +203,7 @@ class AssemblyProblem:
         return compute_point_position(self.linkage.source, self.p, q, point) - target
 
     def _fit_guessed_points(self, q: Array) -> Array:
-        """Return the configuration, found from q, whose guessed points are as near to their guesses as possible."""
+        """Return the least-squares fit of the equations, guessed coordinates and guessed points, found from q."""
         held = np.diag(self.weight)[self.guessed]
 
         def compute_residuals(x: Array) -> Array:
@@ -253,7 +255,7 @@ class AssemblyProblem:
         return J
 
     def _compute_max_distance(self, guess: Array) -> float:
-        """Return the largest distance (m) from the origin in drives and guess; at least the size of the mechanism."""
+        """Return the largest length (m) in the residuals and positions of the guess; at least the mechanism's size."""
         requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_rows)]
         lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
         return float(
@@ -261,15 +263,18 @@ class AssemblyProblem:
         )
 
     def is_closed(self, q: Array) -> bool:
-        """Return whether all equations are satisfied to rounding at q."""
-        return self.compute_norm(q) < CLOSED + ROUNDING * self.max_distance / self.size
+        """Return whether the norm of the residuals at q is below CLOSURE_TOL plus rounding."""
+        return self.compute_norm(q) < CLOSURE_TOL + ROUNDING_TOL * self.max_distance / self.size
 
     def has_bodies_in_range(self, q: Array) -> bool:
-        """Return whether no body at q is so far from the origin that every equation seems to be satisfied."""
-        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.max_distance)
+        """Return whether no coordinate x, y at q exceeds MAX_RELATIVE_DISTANCE times `max_distance`.
+
+        Far away, rounding would satisfy every equation.
+        """
+        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < MAX_RELATIVE_DISTANCE * self.max_distance)
 
     def _compute_relative_guess_error(self, q: Array) -> float:
-        """Return the largest error of the guessed angles, positions and points, relative to the limit for more starts.
+        """Return the largest error of guessed angles, positions and points, relative to the limits for more starts.
 
         It is 0 without guesses.
         """
@@ -281,23 +286,26 @@ class AssemblyProblem:
             np.linalg.norm(self.compute_point_error(q, *point)) / (MIN_DIFFERENCE * self.size) for point in self.points
         ]
         return float(
-            max([*position_errors / MIN_DIFFERENCE, *np.abs(differences[2::3]) / FAR, *point_errors], default=0.0)
+            max(
+                [*position_errors / MIN_DIFFERENCE, *np.abs(differences[2::3]) / MAX_GUESS_ERROR_RAD, *point_errors],
+                default=0.0,
+            )
         )
 
     def _draw_random_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
         """Yield random starts around the guess, the same in every run; driven and set coordinates keep their values.
 
         Each draw is followed by its mirror image in the axes of the bodies. A linkage that is turned or mirrored with
-        its guess thus finds a start that is turned or mirrored. angle_range: rad, how far guessed angles are turned,
-        because a guess may lie where every search ends in a minimum of the residual above zero.
+        its guess thus finds a start that is turned or mirrored. angle_range: largest change of guessed angles, rad: a
+        guess may lie where every search ends in a minimum of the residual above zero.
         """
         rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
         spread[self.guessed] *= angle_range / np.pi
         body_axes = np.exp(
             1j * np.where(spread[0::3] == spread[1::3], guess[2::3], 0.0)
-        )  # places: in axes of their body
-        for _ in range((TRIES if len(guess) <= MANY else TRIES // 4) // 2):
+        )  # deviations of positions are in the axes of their body
+        for _ in range((N_RANDOM_STARTS if len(guess) <= MANY_COORDINATES else N_RANDOM_STARTS // 4) // 2):
             deviations = spread * rng.uniform(-1.0, 1.0, len(guess))
             for mirror in (1.0, -1.0):
                 position_steps = body_axes * (deviations[0::3] + 1j * mirror * deviations[1::3])
@@ -309,7 +317,7 @@ class AssemblyProblem:
                 yield self.determine_angles(q)
 
     def unwind_angles(self, q: Array) -> Array:
-        """Return the configuration with its angles within half a turn of the guess, unless an equation then opens."""
+        """Return q with each angle within half a turn of the guess by whole turns, unless this violates an equation."""
         for k in np.flatnonzero(self.is_angle & (np.abs(q - self.first_guess) > np.pi)):
             reduced = q.copy()
             reduced[k] -= 2.0 * np.pi * np.round((q[k] - self.first_guess[k]) / (2.0 * np.pi))
@@ -319,10 +327,10 @@ class AssemblyProblem:
     def solve_newton(self, q: Array) -> Array:
         """Return the result of Newton's method with line search from q; q itself if it is closed already.
 
-        Positions are adapted first. A Jacobian is used again while the norm falls to a tenth in each step. The result
-        may be open.
+        The first step changes positions only. A Jacobian is reused while the norm falls to a tenth in each step. The
+        result may not be closed: callers test it.
         """
-        scaled_residual, rounding = self._compute_scaled_residual(q), ROUNDING * self.max_distance / self.size
+        scaled_residual, rounding = self._compute_scaled_residual(q), ROUNDING_TOL * self.max_distance / self.size
         if float(np.linalg.norm(scaled_residual)) < rounding:
             return q
         q = q + self._compute_newton_step(q, scaled_residual, ~self.is_angle)
@@ -330,7 +338,7 @@ class AssemblyProblem:
             q,
             False,
             self._compute_scaled_residual(q),
-        )  # at: where the rows are linearized
+        )  # configuration at which the equations are linearized
         for _ in range(MAX_STEPS):
             step, step_length, norm = (
                 self._compute_newton_step(linearized_at, scaled_residual),
@@ -349,7 +357,7 @@ class AssemblyProblem:
                 continue
             q, scaled_residual = q + step_length * step, trial
             new_norm = float(np.linalg.norm(scaled_residual))
-            is_reused = new_norm < HELD and (new_norm < 0.1 * norm or new_norm < rounding)
+            is_reused = new_norm < MAX_REUSE_NORM and (new_norm < 0.1 * norm or new_norm < rounding)
             linearized_at = linearized_at if is_reused else q
         return q
 

@@ -1,8 +1,8 @@
-"""Explain why a linkage does not close or has no consistent velocities, and which links are too short or long.
+"""Diagnose why a linkage does not close or has no consistent velocities, and which links are too short or long.
 
-One body at a time is scaled, its points moving away from its centre of mass, until the equations close with the least
-change. Where they cannot close, a configuration has a least residual with Φ_qᵀ Φ = 0. No motion reduces it, but a
-change of length s does, by Φᵀ Φ_s. So s follows from Newton's steps on the norm of the residual.
+One body at a time is scaled about its centre of mass until the equations close with the least change. Where they cannot
+close, a configuration has a least residual with Φ_qᵀ Φ = 0. No motion reduces it, but a change of length s does, by
+Φᵀ Φ_s. So s follows from Newton's steps on the norm of the residual.
 """
 
 from __future__ import annotations
@@ -13,28 +13,28 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from gudgeon.assembly.closure import CLOSED, AssemblyProblem
+from gudgeon.assembly.closure import CLOSURE_TOL, AssemblyProblem
 from gudgeon.assembly.linkage import find_point_in_body
 from gudgeon.assembly.rank import compute_left_null_maxima
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, describe_mass_ratio
-from gudgeon.model.written import explain_undefined_value_after
+from gudgeon.model.file_expressions import explain_undefined_value_after
 
-FAR = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
-FEW = 60  # coordinates up to which wrong lengths are searched
-STEPS = 30  # largest number of Newton's steps
-NUDGE = 1e-6  # relative change of a body's length for the derivative
-SHUT = 1e-7  # residual relative to the size at which a length counts as found
+MIN_UNIT_RATIO = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
+MAX_SEARCHED_COORDINATES = 60  # coordinates up to which wrong lengths are searched
+MAX_STEPS = 30  # largest number of Newton's steps
+RELATIVE_STEP = 1e-6  # relative change of a body's length for the derivative
+CLOSED_LENGTH_TOL = 1e-7  # residual relative to the size at which a length counts as found
 ENDS = {"tail", "head"}
-MOST, LEAST = 4.0, -0.95  # limits of the relative change: a length beyond them is not the cause
+MAX_CHANGE, MIN_CHANGE = 4.0, -0.95  # limits of the relative change: a length beyond them is not the cause
 
 
 def make_velocity_error(problem: AssemblyProblem, matrix: Array, residuals: Array) -> AssemblyError:
     """Return the error for a start whose velocities do not satisfy the equations.
 
-    matrix: equations of drives, joints and rates for the velocities. residuals: what is left of each. The message
-    names the cause: mass ratios, rates of closed joints, contradicting rates, a dead centre, or else the worst
-    equation.
+    matrix: equations of drives, joints and rates for the velocities. residuals: magnitude of each. The message names
+    the cause: mass ratios, rates of closed joints, contradicting rates, a dead centre, or else the equation with the
+    largest residual.
     """
     source = problem.linkage.source
     if mass_message := describe_mass_ratio(source, problem.linkage.mass(problem.p)):
@@ -51,27 +51,29 @@ def make_velocity_error(problem: AssemblyProblem, matrix: Array, residuals: Arra
         key = "offset_rate" if play[first] else "rate"
         return AssemblyError(
             f"start.rates {', '.join(rates)} cannot be met: a start closes the joints with play"
-            f" ({', '.join(closed_joints)}), and then the linkage moves as its drives say\n"
-            f"  leave the rate out, say how journals move (start: {{play: {{{first}: {{{key}: ..}}}}}}),"
-            " or begin from a State of your own: simulate(start=...)"
+            f" ({', '.join(closed_joints)}), and then the drives determine its velocities\n"
+            f"  leave out the rate, give the rate of a journal (start: {{play: {{{first}: {{{key}: ..}}}}}}),"
+            " or start from a State: simulate(start=...)"
         )
     if len(dependent_motions) > 1:
         owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))
         joints = dict.fromkeys(owners[name] for name in dependent if name not in prescribed)
-        among = f" (joints {', '.join(joints)} tie them)" if joints else ""
+        among = f" (connected by joints {', '.join(joints)})" if joints else ""
         return AssemblyError(
-            f"the start's velocities contradict each other: {', '.join(dependent_motions)} ask for different"
+            f"the start's velocities contradict each other: {', '.join(dependent_motions)} prescribe different"
             f" motions{among}\n"
             "  leave out a rate, or make drives and rates agree at the start"
         )
     if dependent_motions:
         return AssemblyError(
-            f"the start is a dead centre: {', '.join(dependent_motions)} cannot move the linkage from here (rows"
-            f" {', '.join(name for name in dependent if name not in prescribed)} stand against it)\n"
+            f"the start is a dead centre: {', '.join(dependent_motions)} cannot move the linkage from here (constraint"
+            f" equations {', '.join(name for name in dependent if name not in prescribed)} prevent it)\n"
             "  start from another angle, or drive another body"
         )
     worst = rows[int(residuals.argmax())]
-    return AssemblyError(f"no velocities fit the start: row {worst} is left with {residuals.max():.3g}")
+    return AssemblyError(
+        f"no velocities satisfy all equations at the start: {worst} has a residual of {residuals.max():.3g}"
+    )
 
 
 def make_closure_error(problem: AssemblyProblem, q: Array) -> AssemblyError:
@@ -88,34 +90,35 @@ def make_closure_error(problem: AssemblyProblem, q: Array) -> AssemblyError:
     worst = np.argsort(-scaled_residuals)[:6]
     worst = worst[scaled_residuals[worst] > 1e-3 * scaled_residuals.max()]
     rows = ", ".join(_format_open_equation(problem, q, k) for k in worst)
-    if more := int((scaled_residuals >= max(CLOSED, 1e-6 * scaled_residuals.max())).sum()) - len(worst):
-        rows += f" and {more} more, less far,"
+    if more := int((scaled_residuals >= max(CLOSURE_TOL, 1e-6 * scaled_residuals.max())).sum()) - len(worst):
+        rows += f" and {more} more with smaller residuals,"
     owners = ", ".join(dict.fromkeys(problem.owners[k] for k in worst if problem.owners[k] != "start"))
-    sets = "what start.set holds, " if len(problem.set_index) else ""
+    sets = "start.set, " if len(problem.set_index) else ""
     lengths = _describe_unit_mistake(problem) or _describe_wrong_lengths(problem, q)
     return AssemblyError(
-        f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'}){lengths}\n"
-        "  either the constraints contradict each other or the guess is far from every branch: check"
-        f" {sets}lengths and ground points, or give start.guess angles nearer to the wanted branch"
+        f"the start cannot be assembled: constraint equations {rows} are violated (joints"
+        f" {owners or 'none'}){lengths}\n"
+        "  either the constraints contradict each other or the guess is far from every assembly: check"
+        f" {sets}lengths and ground points, or give start.guess angles nearer to the intended assembly"
     )
 
 
 def _format_open_equation(problem: AssemblyProblem, q: Array, index: int) -> str:
-    """Return the name of an open equation with its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
-    left, line = (
+    """Return the name of a violated equation, its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
+    residual, line = (
         float(problem.compute_residual(q)[index]),
         dict(problem.linkage.source.lines).get(problem.owners[index]),
     )
-    amount = format_length(left) if problem.units[index] == "m" else f"{np.degrees(left):.3g} deg"
+    amount = format_length(residual) if problem.units[index] == "m" else f"{np.degrees(residual):.3g} deg"
     return f"{problem.names[index]} ({amount}{f', line {line}' if line else ''})"
 
 
 def _describe_wrong_lengths(problem: AssemblyProblem, q: Array) -> str:
     """Return a text on up to three links, of which a change of one would close the linkage; "" if there is none.
 
-    Nothing is searched for more than FEW coordinates.
+    Nothing is searched for more than MAX_SEARCHED_COORDINATES coordinates.
     """
-    if problem.linkage.n > FEW:
+    if problem.linkage.n > MAX_SEARCHED_COORDINATES:
         return ""
     wrong_lengths = find_wrong_lengths(problem, problem.find_least_squares_configuration(q, problem.p))[:3]
     message = [
@@ -127,7 +130,10 @@ def _describe_wrong_lengths(problem: AssemblyProblem, q: Array) -> str:
 
 
 def _describe_unit_mistake(problem: AssemblyProblem) -> str:
-    """Return a text on few lengths of a metre or more that are far larger than all others; "" if there are none."""
+    """Return a text on lengths that are probably in mm without a unit; "" if there are none.
+
+    They are at least 1 m and more than MIN_UNIT_RATIO times the next longest, and at most half of all lengths.
+    """
     source = problem.linkage.source
     sizes = {
         slot.address: abs(float(problem.p[k]))
@@ -136,11 +142,12 @@ def _describe_unit_mistake(problem: AssemblyProblem) -> str:
     }
     order = sorted((name for name, size in sizes.items() if size > 0.0), key=lambda name: -sizes[name])
     for k, (name, after) in enumerate(pairwise(order), 1):
-        if sizes[name] > FAR * sizes[after] and sizes[name] >= 1.0 and 2 * k <= len(order):
+        if sizes[name] > MIN_UNIT_RATIO * sizes[after] and sizes[name] >= 1.0 and 2 * k <= len(order):
             message = ", ".join(f"{long} is {format_length(sizes[long])}" for long in order[:k][:3])
-            meant = f"was {sizes[order[0]]:.4g} mm meant" if k == 1 else "were they meant in mm"
+            meant = f"is it {sizes[order[0]]:.4g} mm" if k == 1 else "are they in mm"
             return (
-                f"\n  {message}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? bare numbers are m"
+                f"\n  {message}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? numbers without a"
+                " unit are in m"
             )
     return ""
 
@@ -155,8 +162,8 @@ class WrongLength:
     """Describe a body that would close the linkage if it alone were longer by `missing` (m); negative: shorter."""
 
     body: str
-    points: tuple[str, str]  # those held by joints or drives that are furthest apart
-    length: float  # m, between them
+    points: tuple[str, str]  # its connected points with the largest distance
+    length: float  # m, distance of these points
     missing: float
 
     @property
@@ -193,10 +200,10 @@ def _search_wrong_lengths(problem: AssemblyProblem, q: Array) -> Iterator[WrongL
 
 
 def _find_closing_length_change(problem: AssemblyProblem, q: Array, length_indices: list[int]) -> float | None:
-    """Return the relative change of some lengths that just closes the equations; None if none does.
+    """Return the smallest relative change of some lengths that closes the equations; None if none does.
 
     length_indices: the lengths' indices in p. q: first configuration. Newton's method on the norm of the least residual
-    is followed by bisection between open and closed. Changes outside LEAST to MOST are not considered.
+    is followed by bisection between open and closed. Changes outside MIN_CHANGE to MAX_CHANGE are not considered.
     """
     p, open_change, closing_change, change = problem.p, 0.0, None, 0.0
 
@@ -206,22 +213,22 @@ def _find_closing_length_change(problem: AssemblyProblem, q: Array, length_indic
         changed[length_indices] *= 1.0 + relative_change
         return changed
 
-    for _ in range(STEPS):
+    for _ in range(MAX_STEPS):
         least_squares_q = problem.find_least_squares_configuration(q, scale_lengths(change))
         residual = problem.compute_residual(least_squares_q, scale_lengths(change)) / problem.row_scale
         size = float(np.linalg.norm(residual))
         if not np.isfinite(size):
             return None
-        if size < SHUT:  # it may be more than is needed: what just closes lies between
-            if change == open_change or abs(change - open_change) < NUDGE:
+        if size < CLOSED_LENGTH_TOL:  # a smaller change may also close the equations
+            if change == open_change or abs(change - open_change) < RELATIVE_STEP:
                 return change
             closing_change, change = change, 0.5 * (open_change + change)
             continue
         residual_above, residual_below = (
             problem.compute_residual(least_squares_q, scale_lengths(change + e)) / problem.row_scale
-            for e in (NUDGE, -NUDGE)
+            for e in (RELATIVE_STEP, -RELATIVE_STEP)
         )
-        slope = float(residual @ (residual_above - residual_below)) / (2.0 * NUDGE)
+        slope = float(residual @ (residual_above - residual_below)) / (2.0 * RELATIVE_STEP)
         if abs(slope) < 1e-9 * size:
             return closing_change
         q, open_change, change = least_squares_q, change, change - size**2 / slope
@@ -229,6 +236,6 @@ def _find_closing_length_change(problem: AssemblyProblem, q: Array, length_indic
             open_change, closing_change
         ):
             change = 0.5 * (open_change + closing_change)
-        if abs(change) > MOST or change <= LEAST:
+        if abs(change) > MAX_CHANGE or change <= MIN_CHANGE:
             return closing_change
     return closing_change

@@ -14,7 +14,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
 
 MIN_DIFFERENCE = 0.2  # rad, or relative to the size: smallest difference of assemblies that a guess distinguishes
-LISTED = "gudgeon check --branches lists those that there are"
+LISTED = "gudgeon check --branches lists the assemblies"
 # deviations from guesses in the runs of a study's batches; None: warn at once
 COLLECTED_GUESS_DEVIATIONS: ContextVar[list[Mapping[str, float]] | None] = ContextVar(
     "deviations from guesses", default=None
@@ -52,13 +52,12 @@ def find_guess_deviations(linkage: Linkage, p: Array, q: Array) -> dict[str, flo
 def warn_guess_deviations(source: KernelSource, differences: Mapping[str, float]) -> None:
     """Warn about each guess from which the start deviates.
 
-    In a study, append the deviations to the list of COLLECTED_GUESS_DEVIATIONS instead.
-
-    `differences`: those of `find_guess_deviations`.
+    In a study, append the deviations to the list of COLLECTED_GUESS_DEVIATIONS instead. `differences`: the result of
+    `find_guess_deviations`.
     """
-    noted = COLLECTED_GUESS_DEVIATIONS.get()
-    if noted is not None:
-        noted.append(differences)
+    collected = COLLECTED_GUESS_DEVIATIONS.get()
+    if collected is not None:
+        collected.append(differences)
         return
     for name, away in differences.items():
         message = (
@@ -73,8 +72,8 @@ def warn_guess_deviations_in_runs(source: KernelSource, guess_deviations: Sequen
     guess_deviations: {name: difference} of each run. In a study they are added to the list of
     COLLECTED_GUESS_DEVIATIONS instead.
     """
-    if (kept := COLLECTED_GUESS_DEVIATIONS.get()) is not None:  # by who makes many batches
-        kept.extend(guess_deviations)
+    if (collected := COLLECTED_GUESS_DEVIATIONS.get()) is not None:  # a study with many batches
+        collected.extend(guess_deviations)
         return
     message = []
     for name in dict.fromkeys(name for off in guess_deviations for name in off):
@@ -82,7 +81,7 @@ def warn_guess_deviations_in_runs(source: KernelSource, guess_deviations: Sequen
         largest = format_guess_difference(name, max(map(abs, deviations)))
         message.append(f"{name} in {len(deviations)} of {len(guess_deviations)} runs by up to {largest}")
     if message:
-        text = f"runs begin away from their guess: {', '.join(message)}: {describe_missing_assembly(source)}; {LISTED}"
+        text = f"starts deviate from their guess: {', '.join(message)}: {describe_missing_assembly(source)}; {LISTED}"
         warnings.warn(text, stacklevel=find_user_stack_level())
 
 
@@ -100,6 +99,6 @@ def format_guess_difference(name: str, difference: float) -> str:
 
 
 def describe_missing_assembly(source: KernelSource) -> str:
-    """Return a text that no nearer assembly was found, and that several guesses may contradict each other."""
+    """Return the text that no nearer assembly was found; with several guesses, none nearer to all of them together."""
     guessed = {name if name in source.coordinates else name.rpartition(".")[0] for name in source.start_guess}
     return f"no assembly nearer{' to all guesses together' if len(guessed) > 1 else ''} was found"

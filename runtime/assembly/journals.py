@@ -1,4 +1,4 @@
-"""Check and report where journals are in their bearings at the start: in contact, or too deep for contact laws."""
+"""Check and report the positions of journals in their bearings at the start: in contact, or too deep for laws."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from gudgeon.model.contours import (
     interpolate_depth,
 )
 
-FAR = 10.0  # times the largest allowed value: a longer e probably has the wrong unit
-ROUNDED = 1e-9  # of the clearance: allowed error of a start in contact
-DEEPEST = 0.1  # of the radius: largest penetration of a journal (`deepest` of model.h)
+MIN_UNIT_RATIO = 10.0  # times the largest allowed value: a longer e probably has the wrong unit
+CLEARANCE_TOL = 1e-9  # of the clearance: allowed error of a start in contact
+MAX_DEPTH_OVER_RADIUS = 0.1  # of the radius: largest penetration of a journal (`deepest` of model.h)
 
 
 def check_journal_positions(linkage: Linkage, p: Array) -> None:
     """Check the positions of journals and sliders with play that the file's start sets.
 
-    Raises AssemblyError for a position deeper in the wall than any contact law holds, or for a slider that turns over.
+    Raises AssemblyError for a penetration beyond the validity of contact laws, and for a slider that can turn over.
     """
     for joint in linkage.source.clearances:
         if joint.name.endswith(".front_upper"):
@@ -39,39 +39,39 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
         if joint.is_corner:
             _check_corner_depth(linkage, p, joint, e - c)
             continue
-        if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
-            length, most = format_distinct_numbers(1e3 * e, 1e3 * c)
+        if joint.name in linkage.source.rigid and e > c * (1.0 + CLEARANCE_TOL):
+            length, limit = format_distinct_numbers(1e3 * e, 1e3 * c)
             raise AssemblyError(
-                f"start.play.{joint.name}.e is {length} mm long and may be {most} mm, the clearance: the surfaces of"
-                " this joint do not give (newton_restitution)\n"
-                f"  write start.play.{joint.name}: {{e: [{most} mm, 0 mm]}} for a start in contact, or less"
+                f"start.play.{joint.name}.e has a length of {length} mm: expected {limit} mm at most, the clearance,"
+                " because the surfaces of this joint are rigid (newton_restitution)\n"
+                f"  write start.play.{joint.name}: {{e: [{limit} mm, 0 mm]}} for a start in contact, or less"
             )
-        deepest = DEEPEST * float(p[joint.constants["R_i"]])
+        deepest = MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
         if e - c > deepest:
-            length, most = format_distinct_numbers(1e3 * e, 1e3 * (c + deepest))
-            bare = "; a bare number is in m" if e > FAR * (c + deepest) else ""
+            length, limit = format_distinct_numbers(1e3 * e, 1e3 * (c + deepest))
+            bare = "; a number without a unit is in m" if e > MIN_UNIT_RATIO * (c + deepest) else ""
             raise AssemblyError(
-                f"start.play.{joint.name}.e is {length} mm long and may be {most} mm: the clearance is {1e3 * c:.4g}"
-                " mm, and deeper in metal than a tenth of the bearing's radius no law of contact holds\n"
-                f"  write start.play.{joint.name}: {{e: [{1e3 * c / 2:.3g} mm, 0 mm]}}, or a share of a parameter, as"
-                f" 0.5*c{bare}"
+                f"start.play.{joint.name}.e has a length of {length} mm: expected {limit} mm at most, the clearance of"
+                f" {1e3 * c:.4g} mm and a tenth of the bearing's radius, up to which contact laws are valid\n"
+                f"  write start.play.{joint.name}: {{e: [{1e3 * c / 2:.3g} mm, 0 mm]}}, or a fraction of a parameter,"
+                f" such as 0.5*c{bare}"
             )
 
 
 def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
-    """Raise AssemblyError for a slider that could turn over in its guide: each corner meets its own wall only.
+    """Raise AssemblyError for a slider that can turn over in its guide, or is tilted by 90 deg or more at the start.
 
-    joint: the front upper corner of the slider. Its dimensions, and a tilt of 90 deg or more at the start, are
-    checked.
+    Contact is computed for each corner with the wall on its own side only. joint: the front upper corner of the slider.
     """
     source, c = linkage.source, float(p[joint.clearance])
     guide, a, b, radius = find_slider_dimensions(source, p, joint)
     extent = math.hypot(a - radius, b - radius) + radius
     if extent <= b + c:
         raise AssemblyError(
-            f"the slider of {guide} turns over in its guide: no point of it is further than {1e3 * extent:.4g} mm from"
-            f" its middle, and the walls are {1e3 * (b + c):.4g} mm from the guide's\n"
-            f"  a corner meets the wall on its own side alone: give {guide} more half_length, or less gap"
+            f"the slider of {guide} can turn over in its guide: its points are {1e3 * extent:.4g} mm at most from its"
+            f" centre, and the walls are {1e3 * (b + c):.4g} mm from that of the guide\n"
+            f"  corners have contact with the wall on their own side only: give {guide} a larger half_length, or a"
+            " smaller gap"
         )
     if source.start_apart:
         values = linkage.start_values(p)[1][len(source.start_set) :]
@@ -79,23 +79,26 @@ def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None
         tilt = math.degrees(named.get(f"{joint.joint}.angle", 0.0))
         if abs(tilt) >= 90.0:
             raise AssemblyError(
-                f"start.play.{joint.joint}.tilt turns the slider by {abs(tilt):.4g} deg: a corner meets the wall on its"
-                " own side alone\n  write less than 90 deg, or the slider's axis the other way round"
+                f"start.play.{joint.joint}.tilt is {abs(tilt):.4g} deg: corners have contact with the wall on their own"
+                " side only\n  write less than 90 deg, or reverse the slider's axis"
             )
 
 
 def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
-    """Raise AssemblyError for a slider's corner that is too deep in its wall; `depth` in m, negative outside."""
+    """Raise AssemblyError for a slider's corner that is too deep in its wall; `depth` in m, negative outside.
+
+    The limit is MAX_DEPTH_OVER_RADIUS of half the guide's width; for rigid surfaces, CLEARANCE_TOL of the gap.
+    """
     rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
-    most = ROUNDED * c if rigid else DEEPEST * float(p[joint.constants["R_i"]])
-    if depth > most:
+    limit = CLEARANCE_TOL * c if rigid else MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
+    if depth > limit:
         why = (
-            "the surfaces of this joint do not give (newton_restitution)"
+            "the surfaces of this joint are rigid (newton_restitution)"
             if rigid
-            else (f"deeper than {1e3 * most:.3g} mm, a tenth of half the guide's width, no law of contact holds")
+            else (f"contact laws are valid up to {1e3 * limit:.3g} mm, a tenth of half the guide's width")
         )
         raise AssemblyError(
-            f"start.play.{joint.joint} lays the corner {joint.name} {1e3 * depth:.3g} mm into its wall, beyond the gap"
+            f"start.play.{joint.joint} puts the corner {joint.name} {1e3 * depth:.3g} mm into its wall, beyond the gap"
             f" of {1e3 * c:.4g} mm: {why}\n"
             f"  write less offset or tilt: start.play.{joint.joint}: {{offset: {1e3 * c / 2:.3g} mm}}"
         )
@@ -106,10 +109,10 @@ def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
     for joint, e, c in _iterate_joints_with_start_position(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
             wall = "its wall" if joint.is_corner else "its bearing's wall"
-            so = "a run begins in contact" if joint.dry else "there is no film there"
+            consequence = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
                 f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, "
-                f"e/c = {format_distinct_numbers(e / c, 1.0, 3)[0]}: {so}"
+                f"e/c = {format_distinct_numbers(e / c, 1.0, 3)[0]}: {consequence}"
             )
 
 
@@ -143,8 +146,8 @@ def describe_contacts_without_onset(
 ) -> tuple[str, ...]:
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
-    Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). discrete_states (n_memory,):
-    contacts resumed from another run know their onset and are left out, as are laws that do not depend on δ̇⁻.
+    Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). Left out are contacts that resume
+    from another run, with their δ̇⁻ in discrete_states (n_memory,), and laws that do not depend on δ̇⁻.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(discrete_states[k])]
     notes: list[str] = []
@@ -156,7 +159,7 @@ def describe_contacts_without_onset(
         rows, e = find_eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance]) - _find_contour_depth(compiled, p, q, joint, e)
         if depth > 0.0:
-            with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
+            with np.errstate(all="ignore"):  # the run itself reports values that are not finite
                 deltadot_by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
                 deltadot = float(deltadot_by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
                 approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
@@ -220,7 +223,7 @@ def _depends_on_approach_speed(
         columns = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, field_names=("clearance",)).clearance[
             :, joint_index
         ]
-    except SingularError:  # the run itself tells
+    except SingularError:  # the run itself reports it
         return True
     force = columns[:, [CLEARANCE_Fx, CLEARANCE_Fy]]
     return bool((force[0] != force[1]).any())
@@ -231,9 +234,9 @@ def _format_onset_note(joint_name: str, depth: float, penetration_rate: float) -
 
     depth: m. penetration_rate: δ̇ ≤ 0, m/s.
     """
-    moves = f"part at {-penetration_rate:.4g} m/s" if penetration_rate < 0.0 else "are at rest"
+    moves = f"separate at {-penetration_rate:.4g} m/s" if penetration_rate < 0.0 else "are at rest"
     return (
         f"{joint_name} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not"
-        " known, and its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run."
-        "impacts has it, as deltadot); damping of this contact, and of no other, hangs on that choice"
+        " known; its approach speed δ̇⁻ (deltadot in run.impacts) follows from the energy of motion and elastic force"
+        " without loss; only the damping of this contact depends on that choice"
     )

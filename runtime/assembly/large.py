@@ -1,7 +1,7 @@
 """Solve linear systems of large mechanisms with sparse matrices, in short steps between which Ctrl-C is handled.
 
-LAPACK takes seconds for a thousand coordinates, and Python handles no signal meanwhile. Another thread would not help:
-OpenBLAS does not let a process end meanwhile.
+LAPACK takes seconds for a thousand coordinates, and Python handles no signal during this time. Another thread would not
+help: a process cannot end during a call of OpenBLAS.
 """
 
 from __future__ import annotations
@@ -13,29 +13,30 @@ import numpy as np
 from gudgeon.model.compiled import Array
 from gudgeon.waiting.imports import SPARSE, import_modules_completely
 
-LARGE = 150  # coordinates from which on sparse solvers are used
+MIN_SPARSE_COORDINATES = 150  # coordinates from which on sparse solvers are used
 DAMPING = 1e-10  # of the sum of squares, as in C's first step (engine/scene/start.c)
-COLUMNS, SHARPER = 6, 6  # random columns that are filtered, and the number of filter steps
-VANISHES = 1e-6  # of the largest singular value: smaller ones are ignored where equations depend on each other
+N_RANDOM_COLUMNS, N_FILTER_STEPS = 6, 6  # random columns that are filtered, and the number of filter steps
+# of the largest singular value: smaller ones are ignored where equations depend on each other
+MIN_SINGULAR_RATIO = 1e-6
 
 
 def solve_minimum_norm(matrix: Array, right_hand_side: Array) -> Array:
-    """Return the shortest x (n,) with matrix x = right_hand_side, or the shortest least-squares solution.
+    """Return the minimum-norm solution x (n,) of matrix x = right_hand_side, in the least-squares sense.
 
-    It is 0 if a number is not finite. From LARGE columns on sparse solvers are used.
+    It is 0 if a number is not finite. From MIN_SPARSE_COORDINATES columns on, sparse solvers are used.
     """
     if not (np.isfinite(matrix).all() and np.isfinite(right_hand_side).all()):
         return np.zeros(matrix.shape[1])
-    if matrix.shape[1] >= LARGE:
+    if matrix.shape[1] >= MIN_SPARSE_COORDINATES:
         x = solve_independent_rows(matrix, right_hand_side)
         return x if x is not None else solve_dependent_rows(matrix, right_hand_side)
     return np.asarray(np.linalg.lstsq(matrix, right_hand_side, rcond=1e-12)[0], dtype=np.float64)
 
 
 def solve_independent_rows(matrix: Array, right_hand_side: Array) -> Array | None:
-    """Return the shortest x (n,) with matrix x = right_hand_side; None if the rows of the matrix A are dependent.
+    """Return the minimum-norm solution x (n,) of matrix x = right_hand_side; None if the rows A are dependent.
 
-    The matrix [I Aᵀ; A 0] is factorized.
+    The matrix [I Aᵀ; A 0] is factorized. Rows are dependent if it is singular or x has a residual above 1e-9.
     """
     columns = matrix.shape[1]
     try:
@@ -47,22 +48,22 @@ def solve_independent_rows(matrix: Array, right_hand_side: Array) -> Array | Non
 
 
 def solve_dependent_rows(matrix: Array, right_hand_side: Array) -> Array:
-    """Return about the shortest least-squares solution x (n,) of matrix x = right_hand_side.
+    """Return an approximate minimum-norm least-squares solution x (n,) of matrix x = right_hand_side.
 
-    Rows may depend on each other. Singular values below VANISHES of the largest are damped; four repetitions reduce the
-    effect of the damping on the others.
+    Rows may depend on each other. Singular values below MIN_SINGULAR_RATIO of the largest are damped; four repetitions
+    reduce the effect of the damping on the others.
     """
     columns, x = matrix.shape[1], np.zeros(matrix.shape[1])
-    solve = _factorize(matrix, (VANISHES * _compute_norm_bound(matrix)) ** 2)
-    for _ in range(4):  # damping takes a share of a step, less each time
+    solve = _factorize(matrix, (MIN_SINGULAR_RATIO * _compute_norm_bound(matrix)) ** 2)
+    for _ in range(4):  # damping reduces each step by a fraction, less each time
         x = x + solve(np.concatenate([np.zeros(columns), right_hand_side - matrix @ x]))[:columns]
     return x
 
 
 def solve_damped_least_squares(matrix: Array, right_hand_side: Array) -> Array:
-    """Return x (n,) that minimizes |matrix x − right_hand_side| with a little damping.
+    """Return x (n,) that minimizes |matrix x − right_hand_side|² + ε |x|², with ε = DAMPING times the sum of squares.
 
-    Newton's first steps use it if there are more equations than coordinates.
+    Newton's method for large mechanisms uses it if there are more equations than coordinates.
     """
     rows = len(matrix)
     damping = DAMPING * float((matrix**2).sum()) + 1e-300
@@ -71,10 +72,10 @@ def solve_damped_least_squares(matrix: Array, right_hand_side: Array) -> Array:
 
 
 def has_independent_rows(matrix: Array, relative_limit: float) -> bool:
-    """Return whether all rows are surely independent, by an estimate of the smallest singular value.
+    """Return whether all rows are independent, by an estimate of the smallest singular value (inverse iteration).
 
-    It must be far above `relative_limit` times the largest; False also for numbers that are not finite, no rows, or
-    more rows than columns. Powers of the inverse on a random column grow by 1/σ².
+    It must exceed ten times `relative_limit` times a bound of the largest. Return False too for numbers that are not
+    finite, no rows, or more rows than columns.
     """
     if not len(matrix) or len(matrix) > matrix.shape[1] or not np.isfinite(matrix).all():
         return False
@@ -101,9 +102,9 @@ def estimate_left_null_maxima(matrix: Array, relative_limit: float) -> Array:
         return np.zeros(rows)
     epsilon = (relative_limit * _compute_norm_bound(matrix)) ** 2
     solve = _factorize(matrix, epsilon)
-    x = np.random.default_rng(0).standard_normal((rows, COLUMNS))
-    for _ in range(SHARPER):
-        x = -epsilon * solve(np.concatenate([np.zeros((columns, COLUMNS)), x]))[columns:]
+    x = np.random.default_rng(0).standard_normal((rows, N_RANDOM_COLUMNS))
+    for _ in range(N_FILTER_STEPS):
+        x = -epsilon * solve(np.concatenate([np.zeros((columns, N_RANDOM_COLUMNS)), x]))[columns:]
     return np.asarray(np.abs(x).max(axis=1, initial=0.0), dtype=np.float64)
 
 

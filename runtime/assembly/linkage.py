@@ -12,8 +12,8 @@ from gudgeon.contract.kernel_source import KernelSource, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import compute_norm_weights, compute_size
 
-PASSES = 3  # Newton's passes of a projection: the second one reaches rounding already
-CLOSED = 1e-15  # m or rad: Φ that no further pass reduces
+N_NEWTON_STEPS = 3  # Newton's passes of a projection: the second one reaches rounding already
+PROJECTION_TOL = 1e-15  # m or rad: Φ that no further pass reduces
 
 
 class Linkage(Protocol):
@@ -83,13 +83,13 @@ def project_state(compiled: CompiledModel, t: float, q: Array, v: Array, p: Arra
     returned unchanged.
     """
     root = np.sqrt(compute_norm_weights(compiled.source, p, compiled.mass(p)))
-    for _ in range(PASSES):
+    for _ in range(N_NEWTON_STEPS):
         phi = compiled.phi(t, q, p)
         phi_q = compiled.phi_q(t, q, p)
         if not len(phi) or not (np.isfinite(phi).all() and np.isfinite(phi_q).all() and np.isfinite(v).all()):
             return q, v
         q = q - solve_minimum_norm(phi_q / root, phi) / root
-        if np.abs(phi).max() < CLOSED:
+        if np.abs(phi).max() < PROJECTION_TOL:
             break
     phi_q = compiled.phi_q(t, q, p)
     return q, v - solve_minimum_norm(phi_q / root, phi_q @ v - compiled.nu(t, q, p)) / root

@@ -1,8 +1,8 @@
-"""Compute the mobility of a linkage without play: degrees of freedom by count and rank, and coordinates that describe
-them.
+"""Compute the mobility of a linkage without play: degrees of freedom by Grübler's count and by rank.
 
 Grübler's count is 3 bodies − equations; the rank of Φ_q is right also with redundant equations. It is evaluated at the
 assembled start and near it, and the largest counts: links that are in line for a moment are not a degree of freedom.
+Coordinates that describe the degrees of freedom are selected.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
-from gudgeon.assembly.rank import RANK, SAMPLES, find_nearby_configurations
+from gudgeon.assembly.rank import N_NEARBY_CONFIGURATIONS, RANK_TOL, find_nearby_configurations
 from gudgeon.errors import BadValueError, Location
 from gudgeon.model.compiled import Array
 
-INDEPENDENT = 1e-6  # of a coordinate's largest motion: smallest motion that remains if others are held
+MIN_INDEPENDENT_MOTION = 1e-6  # of a coordinate's largest motion: smallest motion that remains if others are held
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def find_mobility(
     """
     row_indices = list(range(len(linkage.source.start_rows))) if equation_indices is None else list(equation_indices)
     with np.errstate(all="ignore"):
-        near_q = find_nearby_configurations(linkage, p, q, row_indices, SAMPLES, t)
+        near_q = find_nearby_configurations(linkage, p, q, row_indices, N_NEARBY_CONFIGURATIONS, t)
         matrices = [scale_rows(linkage, p, linkage.closed_phi_q(t, x, p)[row_indices]) for x in near_q]
     null_spaces = [_compute_null_space(matrix) for matrix in matrices if np.isfinite(matrix).all()]
     regular = min(
@@ -98,11 +98,11 @@ def check_degrees_of_freedom(expected_dof: float, location: Location, mobility: 
 
 
 def _compute_null_space(matrix: Array) -> Array:
-    """Return an orthonormal basis (n, dof) of the null space: singular values below RANK of the largest count as 0."""
+    """Return an orthonormal basis (n, dof) of the null space: singular values below RANK_TOL of the largest are 0."""
     if not len(matrix):
         return np.eye(matrix.shape[1])
     _, values, right = np.linalg.svd(matrix)
-    rank = int((values > RANK * values[0]).sum()) if values[0] > 0.0 else 0
+    rank = int((values > RANK_TOL * values[0]).sum()) if values[0] > 0.0 else 0
     return np.asarray(right[rank:].T, dtype=np.float64)
 
 
@@ -112,18 +112,19 @@ def _list_preferred_order(names: tuple[str, ...]) -> list[int]:
 
 
 def _select_describing_coordinates(free_motions: Array, preferred_order: list[int]) -> list[int]:
-    """Return the indices of the first coordinates in this order that distinguish all free motions (n, dof).
+    """Return the indices of dof coordinates whose velocities determine each of the free motions (n, dof).
 
-    Coordinates whose motion is mostly independent of those selected are preferred.
+    They are selected in this order by Gram–Schmidt. Coordinates with a tenth or more of motion that is independent of
+    those selected are preferred.
     """
     basis, selected = np.zeros((0, free_motions.shape[1])), list[int]()
-    for independent_part in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
+    for independent_part in (0.1, 0.0):  # smallest independent fraction of a coordinate's motion
         for k in preferred_order:
             rest = free_motions[k] - (basis @ free_motions[k]) @ basis
             length = float(np.linalg.norm(rest))
             if (
                 len(selected) < free_motions.shape[1]
-                and length > INDEPENDENT
+                and length > MIN_INDEPENDENT_MOTION
                 and length > independent_part * float(np.linalg.norm(free_motions[k]))
             ):
                 basis, selected = np.vstack([basis, rest / length]), [*selected, k]
@@ -137,7 +138,7 @@ def _find_unconnected_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]
     """
     bodies = linkage.source.bodies
     bodies_of_row = [{k for k, body in enumerate(bodies) if np.any(row[body.index : body.index + 3])} for row in matrix]
-    # a row of one body ties it to the ground, and with it those that rows join to it
+    # an equation of one body connects it to the ground, equations of several bodies connect these
     connected = {k for row in bodies_of_row if len(row) == 1 for k in row}
     is_growing = True
     while is_growing:

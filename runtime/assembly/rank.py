@@ -4,10 +4,9 @@
 vectors, which are nonzero for dependent rows.
 - `list_redundant_equations`: equations that generator/redundancy.py found redundant with the file's values. Other
 lengths or drives may make them independent again; that is checked here.
-- `compute_branch_velocities`: velocities with which a linkage may pass a singular position. Dependent equations leave
-the velocities
-  open by α n, with n in the null space of Φ_q. Accelerations exist only where λᵀ γ(v) = 0 for the left null vector λ
-  of Φ_q. This quadratic equation has two real roots for two branches; without any, the motion ends.
+- `compute_branch_velocities`: velocities with which a linkage may pass a singular position. Dependent equations
+determine the velocities up to α n, with n in the null space of Φ_q. Accelerations exist only where λᵀ γ(v) = 0 for the
+left null vector λ of Φ_q. This quadratic equation has two real roots for two branches; without any, the motion ends.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.assembly.large import (
-    LARGE,
+    MIN_SPARSE_COORDINATES,
     compute_rank_by_rows,
     estimate_left_null_maxima,
     has_independent_rows,
@@ -33,27 +32,29 @@ from gudgeon.model.compiled import Array, CompiledModel
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Problem, Trajectory
 
-SAMPLES = 3  # configurations near the start at which ranks are evaluated
-REACH = 0.05  # rad, or relative to the size: distance of these configurations from the start
-RANK = 1e-9  # singular values below this fraction of the largest count as zero
-DAMPED = 1e-7  # smallest limit that a damped factorization can distinguish
-DEAD = 1e-6  # singular values below this fraction count as zero: a double root is found to 1e-8 only
-NEAR = 1e-4  # the same where a motion ended on its way to a dead centre
+N_NEARBY_CONFIGURATIONS = 3  # configurations near the start at which ranks are evaluated
+NEARBY_DISTANCE = 0.05  # rad, or relative to the size: distance of these configurations from the start
+RANK_TOL = 1e-9  # singular values below this fraction of the largest count as zero
+MIN_DAMPED_TOL = 1e-7  # smallest limit that a damped factorization can distinguish
+DEAD_CENTRE_TOL = 1e-6  # singular values below this fraction count as zero: a double root is found to 1e-8 only
+NEAR_DEAD_CENTRE_TOL = 1e-4  # the same for a motion that ended just before a dead centre
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}
-MOST = 2_000  # largest number of samples of an interrupted run that are checked, so that Ctrl-C is answered soon
-OPEN = 1e-3  # rad, or relative to the size: a redundant equation violated by more contradicts the others
-SINGULAR = 1e-4  # fraction of the largest singular value below which one counts as zero
-CONSISTENT = 1e-3  # relative contradiction of the rates at which the linkage cannot move further
-SAME = 1e-6  # smallest relative difference of the rates of two branches
+# largest number of samples of an interrupted run that are checked, so that Ctrl-C is answered soon
+MAX_CHECKED_SAMPLES = 2_000
+# rad, or relative to the size: a redundant equation violated by more contradicts the others
+MAX_REDUNDANT_VIOLATION = 1e-3
+SINGULAR_TOL = 1e-4  # fraction of the largest singular value below which one counts as zero
+CONSISTENCY_TOL = 1e-3  # relative contradiction of the rates at which the linkage cannot move further
+MIN_BRANCH_DIFFERENCE = 1e-6  # smallest relative difference of the rates of two branches
 
 
-def compute_rank(matrix: Array, relative_limit: float = RANK) -> int:
+def compute_rank(matrix: Array, relative_limit: float = RANK_TOL) -> int:
     """Return the number of independent rows of a matrix.
 
-    relative_limit: singular values below this fraction of the largest count as zero. Large matrices are treated
-    without singular values.
+    relative_limit: singular values below this fraction of the largest count as zero. From MIN_SPARSE_COORDINATES
+    columns on, sparse factorization and Gram–Schmidt with pivoting replace the singular values.
     """
-    if matrix.shape[1] >= LARGE:
+    if matrix.shape[1] >= MIN_SPARSE_COORDINATES:
         return (
             len(matrix)
             if has_independent_rows(matrix, relative_limit)
@@ -62,14 +63,14 @@ def compute_rank(matrix: Array, relative_limit: float = RANK) -> int:
     return _compute_rank_by_svd(matrix, relative_limit)
 
 
-def compute_left_null_maxima(matrix: Array, relative_limit: float = RANK) -> Array:
+def compute_left_null_maxima(matrix: Array, relative_limit: float = RANK_TOL) -> Array:
     """Return for each row, (m,), its largest magnitude in left null vectors (unit vectors); 0 for independent rows.
 
-    relative_limit: singular values below this fraction of the largest count as zero. From LARGE columns on the result
-    is an estimate, with a limit of at least DAMPED.
+    relative_limit: singular values below this fraction of the largest count as zero. From MIN_SPARSE_COORDINATES
+    columns on the result is an estimate, with a limit of at least MIN_DAMPED_TOL.
     """
-    if matrix.shape[1] >= LARGE:
-        return estimate_left_null_maxima(matrix, max(relative_limit, DAMPED))
+    if matrix.shape[1] >= MIN_SPARSE_COORDINATES:
+        return estimate_left_null_maxima(matrix, max(relative_limit, MIN_DAMPED_TOL))
     return _compute_left_null_maxima_by_svd(matrix, relative_limit)
 
 
@@ -90,8 +91,8 @@ def _compute_left_null_maxima_by_svd(matrix: Array, relative_limit: float) -> Ar
 def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Return the names of the equations of Φ and start.rates that depend on each other at q; () at a regular position.
 
-    Equations that are redundant everywhere do not count: they were left out when the scene was derived, or depend on
-    each other near q, too.
+    Equations that are redundant everywhere do not count: they were left out in the derivation of the scene, or depend
+    on each other near q, too. Results are cached.
     """
     source = compiled.source
     redundant = set(list_redundant_equations(compiled))
@@ -104,15 +105,15 @@ def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Arr
         body, _, component = rate.partition(".")
         rates[k, source.coordinates.index(f"{body}.{_POSITION[component]}")] = 1.0
     dependent = _find_dependent_rows(
-        compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD
+        compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD_CENTRE_TOL
     )
     if not dependent:
         return ()
     near_q = find_nearby_configurations(
-        compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t
+        compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], N_NEARBY_CONFIGURATIONS, t
     )
     rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near_q)
-    at_start, *others = (compute_rank(scale_rows(compiled, p, matrix), DEAD) for matrix in rows)
+    at_start, *others = (compute_rank(scale_rows(compiled, p, matrix), DEAD_CENTRE_TOL) for matrix in rows)
     return () if others and max(others) == at_start else dependent
 
 
@@ -124,7 +125,7 @@ def find_nearly_dependent_equations(compiled: CompiledModel, p: Array, t: float,
     rows = compiled.source.rows
     if not rows or not np.isfinite(q).all():
         return ()
-    return _find_dependent_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
+    return _find_dependent_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR_DEAD_CENTRE_TOL)
 
 
 def _find_dependent_rows(
@@ -156,7 +157,7 @@ def find_nearby_configurations(
     scale = np.where(find_angles(linkage.source), 1.0, size)
     units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in row_indices])
     for _ in range(n_configurations):
-        x = q + REACH * rng.standard_normal(len(q)) * scale
+        x = q + NEARBY_DISTANCE * rng.standard_normal(len(q)) * scale
         for _ in range(50):
             residual = linkage.closed_phi(t, x, p)[row_indices] / units
             if np.abs(residual).max(initial=0.0) < 1e-13:
@@ -164,7 +165,7 @@ def find_nearby_configurations(
             matrix = linkage.closed_phi_q(t, x, p)[row_indices] * scale / units[:, None]
             step = (
                 solve_minimum_norm(matrix, residual)
-                if len(x) >= LARGE
+                if len(x) >= MIN_SPARSE_COORDINATES
                 else np.linalg.lstsq(matrix, residual, rcond=1e-10)[0]
             )
             x = x - scale * step
@@ -177,11 +178,11 @@ def find_nearby_configurations(
 def list_redundant_equations(compiled: CompiledModel) -> list[int]:
     """Return the indices in source.start_rows of equations that were found redundant and are not integrated.
 
-    Equations of joints with play do not count.
+    Equations of joints with play do not count. The list is cached: callers must not change it.
     """
     source = compiled.source
-    kept, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}
-    return [k for k, row in enumerate(source.start_rows) if row.name not in kept and row.owner not in with_play]
+    integrated, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}
+    return [k for k, row in enumerate(source.start_rows) if row.name not in integrated and row.owner not in with_play]
 
 
 def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
@@ -190,19 +191,20 @@ def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Ar
     if not extra:
         return
     rows = scale_rows(compiled, p, compiled.closed_phi_q(t, q, p))
-    kept = scale_rows(compiled, p, compiled.phi_q(t, q, p))
-    if compute_rank(kept) == len(kept) and compute_rank(np.concatenate([kept, rows[extra]])) > len(kept):
+    integrated = scale_rows(compiled, p, compiled.phi_q(t, q, p))
+    n_rows = len(integrated)
+    if compute_rank(integrated) == n_rows and compute_rank(np.concatenate([integrated, rows[extra]])) > n_rows:
         raise AssemblyError(
-            f"{_describe_equations(compiled, extra)} said nothing new with the file's numbers and"
-            " would hold the linkage with these\n"
-            "  give the numbers in the file or as overrides of load(), so that the constraints are counted anew"
+            f"redundant with the file's values, but not with these: {_describe_equations(compiled, extra)}\n"
+            "  give the values in the file or as overrides of load(), so that redundant constraints are found again"
         )
 
 
 def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> SolverError | None:
     """Return the error for the first sample at which a trajectory violates a redundant equation; None if none does.
 
-    Of an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.
+    Of an interrupted run, at most MAX_CHECKED_SAMPLES samples are checked, the last one among them. Raises
+    KeyboardInterrupt.
     """
     compiled, p = problem.compiled, problem.p
     extra = list_redundant_equations(compiled)
@@ -210,27 +212,30 @@ def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> Solve
         return None
     size = compute_mechanism_size(compiled, p)
     scale = np.array([size if compiled.source.start_rows[k].unit == "m" else 1.0 for k in extra])
-    stride = math.ceil(len(trajectory.t) / MOST) if trajectory.interrupted else 1
+    stride = math.ceil(len(trajectory.t) / MAX_CHECKED_SAMPLES) if trajectory.interrupted else 1
     for k in range((len(trajectory.t) - 1) % stride, len(trajectory.t), stride):
         if k % 256 == 0:
             problem.poll_cancellation()
         t = float(trajectory.t[k])
-        far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > OPEN * scale
+        far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > MAX_REDUNDANT_VIOLATION * scale
         if far.any():
             names = _describe_equations(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
             return SolverError(
-                f"the constraints contradict each other by t = {t:.9g} s: {names} depended on the others and is open"
-                " now\n  check the values of the drives and the lengths of links that run side by side",
+                f"the constraints contradict each other by t = {t:.9g} s: redundant before, and violated now:"
+                f" {names}\n  check the values of the drives and the lengths of parallel links",
                 t,
             )
     return None
 
 
 def _describe_equations(compiled: CompiledModel, equation_indices: list[int]) -> str:
-    """Return a text with the names of equations, of their joints, and of the joints with indeterminate forces."""
+    """Return the names of equations, of their joints, and of joints with indeterminate forces, as text.
+
+    An example: "constraint equation C.x (joints C, D)".
+    """
     equations = [compiled.source.start_rows[k] for k in equation_indices]
     owners = dict.fromkeys([*(row.owner for row in equations), *compiled.source.indeterminate])
-    return f"row {', '.join(row.name for row in equations)} (with {', '.join(owners)})"
+    return f"constraint equation {', '.join(row.name for row in equations)} (joints {', '.join(owners)})"
 
 
 def compute_branch_velocities(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[Array]:
@@ -246,16 +251,16 @@ def compute_branch_velocities(compiled: CompiledModel, p: Array, t: float, q: Ar
     if not (len(rows) == len(q) and np.isfinite(matrix).all() and np.isfinite(nu).all()):
         return []
     left, sizes, right = np.linalg.svd(matrix)
-    if not (sizes[-1] <= SINGULAR * sizes[0] and sizes[-2] > SINGULAR * sizes[0]):
+    if not (sizes[-1] <= SINGULAR_TOL * sizes[0] and sizes[-2] > SINGULAR_TOL * sizes[0]):
         return []
-    if abs(left[:, -1] @ nu) > CONSISTENT * float(np.abs(nu).max()):
+    if abs(left[:, -1] @ nu) > CONSISTENCY_TOL * float(np.abs(nu).max()):
         return []
     v = right[:-1].T @ ((left[:, :-1].T @ nu) / sizes[:-1])
     scale = float(np.abs(v).max())
     f = [left[:, -1] @ compiled.closed_gamma(t, q, v + a * scale * right[-1], p)[rows] for a in (-1.0, 0.0, 1.0)]
     square, linear = 0.5 * (f[0] + f[2]) - f[1], 0.5 * (f[2] - f[0])
     inner = linear**2 - 4.0 * square * f[1]
-    if not (scale > 0.0 and square != 0.0 and inner > (SAME * max(abs(linear), abs(square))) ** 2):
+    if not (scale > 0.0 and square != 0.0 and inner > (MIN_BRANCH_DIFFERENCE * max(abs(linear), abs(square))) ** 2):
         return []
     return [v + (sign * np.sqrt(inner) - linear) / (2.0 * square) * scale * right[-1] for sign in (-1.0, 1.0)]
 

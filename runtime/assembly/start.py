@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.assembly.journals import check_journal_positions
-from gudgeon.assembly.large import LARGE, solve_minimum_norm
+from gudgeon.assembly.large import MIN_SPARSE_COORDINATES, solve_minimum_norm
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, CompiledModel
@@ -41,7 +41,11 @@ def assemble_start(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     Raises AssemblyError with equations, joints and residual.
     """
     check_journal_positions(compiled, p)
-    closed = compiled.close_linkage(t, p, compute_mechanism_size(compiled, p)) if compiled.n < LARGE else None
+    closed = (
+        compiled.close_linkage(t, p, compute_mechanism_size(compiled, p))
+        if compiled.n < MIN_SPARSE_COORDINATES
+        else None
+    )
     if closed is not None and np.isfinite(closed[1]).all():
         return Start(*closed)
     return search_start(compiled, p, t)
@@ -50,7 +54,7 @@ def assemble_start(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
 def search_start(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     """Return the start nearest to the guess by a search in Python: closed configuration, then velocities.
 
-    Raises AssemblyError with equations, joints and residual.
+    Called if C does not converge, and for large mechanisms. Raises AssemblyError with equations, joints and residual.
     """
     from gudgeon.assembly.closure import AssemblyProblem
 
@@ -89,7 +93,8 @@ def compute_start_velocities(problem: AssemblyProblem, q: Array) -> Array:
         rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]
         raise AssemblyError(
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
-            f" t = {problem.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
+            f" t = {problem.t:g} s\n  the slope of a root or a power is infinite where it begins: use smooth_step, or"
+            " start later"
         )
     root_of_mass = np.sqrt(compute_norm_weights(problem.linkage.source, problem.p, problem.linkage.mass(problem.p)))
     v = np.zeros_like(q)

@@ -17,8 +17,8 @@ from gudgeon.commands.common import parse_settings
 from gudgeon.commands.progress import show_status_line
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
+from gudgeon.contract.reduction_description import describe_reduced_system, describe_reduction_steps
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.reduction_words import describe_reduced_system, describe_reduction_steps
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
 from gudgeon.integrators.adaptive import select_first_method
 from gudgeon.language.text_output import print_json

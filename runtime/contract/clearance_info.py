@@ -20,7 +20,7 @@ class ClearanceInfo:
     dry: bool
     film: bool
     clearance: int  # index into p of c
-    constants: Mapping[str, int]  # name -> index into p of what is worth printing: K, S, radius …
+    constants: Mapping[str, int]  # name -> index into p of constants of its laws: K, S, radius …
 
     @property
     def joint(self) -> str:

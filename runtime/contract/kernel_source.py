@@ -24,9 +24,10 @@ HEADER = "model.h"
 ENGINE_ENDS = "/* The engine reads no further: scenes that have all this in common share its code. */"
 MAIN = "scene.c"  # file that is compiled next to the engine
 ENGINE_PART = 0  # part number of the engine, which is compiled in parallel with the parts of MAIN
-CACHED_VALUES = "cached_values"  # attribute for what is computed again with equal values (model/cached_values.py)
-GIVEN = 1.001  # factor of a parameter's default, and the value in place of zero, for the reference comparison
-GIVEN_ZERO = 0.001  # where that is zero
+CACHED_VALUES = "cached_values"  # attribute with cached results of functions (model/cached_values.py)
+# factor of a parameter's default for the reference comparison, and the value in place of a default of 0
+REFERENCE_FACTOR = 1.001
+REFERENCE_VALUE_OF_ZERO = 0.001
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class SeriesInfo:
 
 
 @dataclass(frozen=True)
-class WrittenInfo:
+class ExpressionInfo:
     """Describe an expression of t or motion, or of a scene's `simulate`, as JSON; or a literal or missing 0."""
 
     address: str  # "drives.crank.value"
@@ -181,20 +182,20 @@ class KernelSource:
     derived: tuple[str, ...]  # names of the derived values that follow the parameters in p
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
-    simulate: Mapping[str, float]  # the scene's own t_end, step, output, if given
+    simulate: Mapping[str, float]  # t_end, step and output of the scene, if the file gives them
     operations: Mapping[str, int]  # function → operation count
-    notes: tuple[str, ...]  # what was skipped and why (check -v)
+    notes: tuple[str, ...]  # notes on effects that were left out, with reasons (check -v)
     gravity: bool
-    formulation: str = "full"  # what is integrated: "reduced" or "full"
-    motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
+    formulation: str = "full"  # formulation that is integrated: "reduced" or "full"
+    motion_pivots: tuple[str, ...] = ()  # as pivots, of the formulation that is integrated
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
     closures: tuple[str, ...] = ()  # constraint equations of the reduced formulation
     chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: evaluated, not integrated
     chain_rows: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
     story: ReductionLog = ReductionLog()  # record of the reduction (check -v)
-    written: tuple[WrittenInfo, ...] = ()
-    expressions: tuple[WrittenInfo, ...] = ()  # named expressions of the file that are used by name here
+    written: tuple[ExpressionInfo, ...] = ()
+    expressions: tuple[ExpressionInfo, ...] = ()  # named expressions of the file that are used by name here
     lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
     states: tuple[str, ...] = ()  # internal states of laws, "A.z", equally many per joint with play; "": none
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
@@ -203,10 +204,10 @@ class KernelSource:
     taylor_below: float = 0.0  # tolerance below which `auto` integrates by the Taylor series; 0: never
     stages: bool = False  # whether the library has the matrices of methods with coupled stages
     lanes: str = ""  # file to compile for lanes; "": there is none
-    cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
+    cdef: str = ""  # declarations of `main` where it is compiled without the engine; "": those of the engine
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
     # expressions of `simulate` that depend on parameters; their values are the defaults
-    simulate_written: tuple[WrittenInfo, ...] = ()
+    simulate_written: tuple[ExpressionInfo, ...] = ()
     tables: tuple[tuple[str, str], ...] = ()  # table files of curves in the mechanism's folder, and their SHA-256
     laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
 
@@ -262,11 +263,12 @@ class KernelSource:
     def reason_without_jacobian(self) -> str:
         """Return why there is no Jacobian; "" if there is one.
 
-        There is none if nothing is integrated, or if a contact of rigid surfaces opens and closes.
+        There is none without degrees of freedom, or if a contact of rigid surfaces opens and closes.
         """
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
-        return f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
+        contact = f"the contact in {self.rigid[0]}" if self.rigid else ""
+        return contact and f"{contact} is a constraint that opens and closes (newton_restitution)"
 
     @cached_property
     def methods(self) -> tuple[str, ...]:
@@ -305,9 +307,9 @@ class KernelSource:
             "conditions": Condition,
             "series": SeriesInfo,
             "events": EventInfo,
-            "written": WrittenInfo,
-            "expressions": WrittenInfo,
-            "simulate_written": WrittenInfo,
+            "written": ExpressionInfo,
+            "expressions": ExpressionInfo,
+            "simulate_written": ExpressionInfo,
             "parts": PartInfo,
             "contours": ContourInfo,
         }
@@ -322,9 +324,9 @@ class KernelSource:
 
 
 def _find_json_defaults() -> dict[str, Any]:
-    """Return the values that are left out of the JSON text, by name.
+    """Return the values of KernelSource that the JSON text leaves out, by name of the field.
 
-    They are the defaults of fields, empty lists and empty mappings.
+    They are the defaults of fields, and empty lists and mappings for fields without defaults.
     """
     defaults = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
     json_defaults = {name: list(value) if isinstance(value, tuple) else value for name, value in defaults.items()}
@@ -353,16 +355,16 @@ def _find_json_defaults() -> dict[str, Any]:
 
 
 def make_given_parameters(parameters: Sequence[RuntimeParameter], parity: int) -> dict[int, float]:
-    """Return a value for every second parameter from index `parity` (0 or 1) on, by index; choices keep their defaults.
+    """Return a test value for every second parameter from index `parity` (0 or 1) on, by index, without choices.
 
-    It is GIVEN times the default, GIVEN_ZERO for a default of 0. With these, a library is compared with values of the
-    NumPy target (model/reference.py).
+    It is REFERENCE_FACTOR times the default, REFERENCE_VALUE_OF_ZERO for a default of 0. With these values, a library
+    is compared with the NumPy target (model/reference.py).
     """
     varied_parameters = [
         (k, parameter) for k, parameter in enumerate(parameters) if k % 2 == parity and not parameter.words
     ]
     return {
-        k: GIVEN * parameter.default or GIVEN_ZERO
+        k: REFERENCE_FACTOR * parameter.default or REFERENCE_VALUE_OF_ZERO
         for k, parameter in varied_parameters
         if math.isfinite(parameter.default)
     }

@@ -11,7 +11,7 @@ class Method:
 
     name: str
     marker: str
-    fixed: bool = False  # whether it takes a `step` and no tolerance
+    fixed: bool = False  # whether it has a fixed `step` and no tolerance
     slopes: bool = False  # whether it uses the Jacobian, so that forces need finite slopes
     smooth: bool = False  # for smooth motion only; a library has it only on request
     lanes: bool = False  # whether runs go side by side in vector lanes (`lane` in engine/methods)

@@ -43,7 +43,7 @@ class Solve:
     """Describe the linear system of a right-hand side, [M Φ_qᵀ; Φ_q 0], factored in a fixed order."""
 
     coordinates: int
-    rows: int  # constraint equations, and one for each friction that may stick
+    rows: int  # constraint equations, and one for each friction element that may stick
     entries: int  # nonzeros of the matrix, both halves
     factor: int  # nonzeros of L below its diagonal
     products: int  # multiplications of the elimination
@@ -64,7 +64,7 @@ class Group:
 
 @dataclass(frozen=True)
 class TreeBody:
-    """Describe a body of the tree and the one that carries it; `joint` is empty if the body keeps its x and y."""
+    """Describe a body of the spanning tree and its parent; `joint` is empty if the body has its own x and y."""
 
     body: str
     parent: str
@@ -73,7 +73,7 @@ class TreeBody:
 
 @dataclass(frozen=True)
 class ReductionLog:
-    """Record the reduction. `costs`: estimated operations of each tree; the first is breadth-first, the least is
+    """Record the reduction. `costs`: estimated operations of each tree; the first is breadth-first, the cheapest is
     used.
     """
 
@@ -84,7 +84,7 @@ class ReductionLog:
     tree: tuple[TreeBody, ...] = ()
     costs: tuple[int, ...] = ()
     before: Solve | None = None  # linear system in absolute coordinates
-    after: Solve | None = None  # linear system of what is integrated or followed
+    after: Solve | None = None  # linear system of the reduced equations
     groups: tuple[Group, ...] = ()  # in the order in which they are solved; kinematic linkages only
 
     def iterate_steps(self) -> Iterator[tuple[Step, int, int]]:
@@ -97,7 +97,7 @@ class ReductionLog:
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> ReductionLog:
-        """Return the record from the lists that `dataclasses.asdict` and JSON made of it."""
+        """Build the record from the plain data (dictionaries and lists) of its JSON form."""
         classes_of_lists = {"steps": Step, "tree": TreeBody, "groups": Group}
         classes_of_systems = {"before": Solve, "after": Solve}
         fields: dict[str, Any] = {}

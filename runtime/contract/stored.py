@@ -30,21 +30,21 @@ def format_base_units(dimension: tuple[float, float, float]) -> str:
 
 
 def remove_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data without the values that `restore_derived_values` restores. `data` is changed.
+    """Return the data without the values that `restore_derived_values` restores; `data` is changed in place.
 
-    Left out are values that follow from others, and those that equal `defaults`. Constraint equations that the start
-    has too become their indices.
+    Values that follow from others or equal `defaults` are removed. Constraint equations of the motion that the start
+    has too are replaced by their indices in "start_rows".
     """
-    for name, derive_value in _OF_STORY.items():
+    for name, derive_value in _DERIVED_IN_LOG.items():
         _drop_if_equal(data["story"], name, derive_value(data))
-    for name, derived_parts in _OF_PARTS.items():
+    for name, derived_parts in _DERIVED_IN_ITEMS.items():
         for item in data[name]:
             for part_name, derive_part in derived_parts.items():
                 _drop_if_equal(item, part_name, derive_part(data, item))
-    for name, derive_value in _FOLLOWING.items():
+    for name, derive_value in _DERIVED_VALUES.items():
         _drop_if_equal(data, name, derive_value(data))
     data["rows"] = [_replace_row_by_index(data["start_rows"], row) for row in data["rows"]]
-    other_defaults = {name: value for name, value in defaults.items() if name not in _FOLLOWING}
+    other_defaults = {name: value for name, value in defaults.items() if name not in _DERIVED_VALUES}
     return {
         name: value
         for name, value in data.items()
@@ -53,21 +53,21 @@ def remove_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
 
 
 def restore_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data with the values that `remove_derived_values` removed. `data` is changed."""
+    """Return the data with the values that `remove_derived_values` removed; `data` is changed in place."""
     for name, default in defaults.items():
-        if name not in _FOLLOWING:
+        if name not in _DERIVED_VALUES:
             data.setdefault(name, default)
     data["rows"] = [data["start_rows"][row] if isinstance(row, int) else row for row in data["rows"]]
-    for name, derived_parts in _OF_PARTS.items():
+    for name, derived_parts in _DERIVED_IN_ITEMS.items():
         for item in data[name]:
             for part_name, derive_part in derived_parts.items():
                 if part_name not in item:
                     item[part_name] = derive_part(data, item)
-    for name, derive_value in _FOLLOWING.items():
+    for name, derive_value in _DERIVED_VALUES.items():
         if name not in data:
             data[name] = derive_value(data)
     data["story"] = dict(data["story"])
-    for name, derive_value in _OF_STORY.items():
+    for name, derive_value in _DERIVED_IN_LOG.items():
         data["story"].setdefault(name, derive_value(data))
     return data
 
@@ -125,13 +125,13 @@ def _find_row_unit(data: Data, name: str) -> str:
     return next((row["unit"] for row in data["start_rows"] if row["name"] == name), "")
 
 
-# values of the description that follow from the rest
-_FOLLOWING: dict[str, Callable[[Data], Any]] = {
+# values of the description that are derived from the rest
+_DERIVED_VALUES: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: [f"{body['name']}.{c}" for body in data["bodies"] for c in ("x", "y", "theta")],
     "motion_pivots": lambda data: data["pivots"],
 }
-# values of its items that follow
-_OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
+# derived values of the items in lists of the description, by list
+_DERIVED_IN_ITEMS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
     "bodies": {"index": lambda data, body: 3 * [b["name"] for b in data["bodies"]].index(body["name"])},
     "joints": {
         "rows": lambda data, joint: [r for r, row in enumerate(data["rows"]) if row["owner"] == joint["name"]],
@@ -147,8 +147,8 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
         "tree": lambda data, slot: "",
     },
 }
-# values of the reduction record that follow
-_OF_STORY: dict[str, Callable[[Data], Any]] = {
+# derived values of the reduction record
+_DERIVED_IN_LOG: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: data["coordinates"],
     "rows": lambda data: [row["name"] for row in data["start_rows"]],
 }

@@ -35,13 +35,13 @@ from gudgeon.exchange.fmu_description import (
 )
 from gudgeon.files.writing import write_bytes
 from gudgeon.integrators.adaptive import (
-    FELT_BY_FILMS,
+    MAX_FILM_SPEED_ERROR,
     RTOL,
     find_integrated_angles,
     select_first_method,
     select_stiff_method,
 )
-from gudgeon.integrators.kinematic import REACH
+from gudgeon.integrators.kinematic import MAX_CORRECTION
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import read_engine_files
 from gudgeon.model.parameters import GAINS, format_conditions, list_conditions
@@ -197,9 +197,9 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_RTOL": repr(RTOL),
         "FMU_FINE_RTOL": repr(fine),
         "FMU_HAS_FILM": int(any(joint.film for joint in source.clearances)),
-        "FMU_FILM_VELOCITY_TOL": repr(FELT_BY_FILMS),
+        "FMU_FILM_VELOCITY_TOL": repr(MAX_FILM_SPEED_ERROR),
         "FMU_EVALUATES_AFTER": int(bool(compiled.has_mod_in_drives)),
-        "FMU_REACH": repr(REACH),
+        "FMU_REACH": repr(MAX_CORRECTION),
         "FMU_AUTOMATIC": int(not source.is_explicit),
         "FMU_FIRST_METHOD": f'"{first_method_name}"',
         "FMU_STIFF_METHOD": f'"{stiff_method_name}"',

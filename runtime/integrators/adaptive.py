@@ -3,7 +3,7 @@
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
 - `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980;
-engine/scalar_simd/runge_kutta.h).
+  engine/scalar_simd/runge_kutta.h).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
 - `taylor`: Taylor series of the motion, of an order that follows from the tolerance, for smooth motion.
 - `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4
@@ -19,9 +19,9 @@ controlled to rtol times the largest speed of their kind so far. S is the mechan
 clearance, or S without play, since motion within the play determines the forces.
 
 A film's force follows the journal's speed in its bearing, which is L/S of the links' speeds. With a film, rtol of
-velocities is therefore at most FELT_BY_FILMS · L/S. Newton's iterations of `radau5` and `radau9` end when no film's
-force changes by more than FORCE_FOUND · rtol of it. Between the ends of steps, motion is the collocation polynomial,
-whose accelerations do not amplify errors of velocities.
+velocities is therefore at most MAX_FILM_SPEED_ERROR · L/S. Newton's iterations of `radau5` and `radau9` end when no
+film's force changes by more than a fraction of rtol of it. Between the ends of steps, motion is the collocation
+polynomial, whose accelerations do not amplify errors of velocities.
 """
 
 from __future__ import annotations
@@ -49,33 +49,34 @@ from gudgeon.model.sizes import (
 )
 
 RTOL = 1e-8  # default tolerance of a run
-FELT_BY_FILMS = 0.015  # largest error of velocities relative to the speeds within a film
-SMALLEST = 1e-14  # smallest rtol: below it, rounding errors would be controlled
-SMALLEST_COMPENSATED = 1e-16  # the same for SMOOTH methods, which keep the rounding errors of their sums
+MAX_FILM_SPEED_ERROR = 0.015  # largest error of velocities relative to the speeds within a film
+MIN_RTOL = 1e-14  # smallest rtol: below it, rounding errors would be controlled
+MIN_RTOL_COMPENSATED = 1e-16  # the same for SMOOTH methods, which use compensated sums
 
 
 def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> float:
     """Return the checked relative tolerance of a step from the argument `rtol`; the default RTOL if it is None.
 
-    Raises BadValueError if the value is out of range, or if the step of the method is fixed.
+    Raises BadValueError below MIN_RTOL (MIN_RTOL_COMPENSATED for SMOOTH methods), from 1 on, and for a method with a
+    fixed step.
     """
     if rtol is None:
         return RTOL
     if method == "rk4" or (has_fixed_step and method != "kinematic"):
         raise BadValueError(
             f"method {method!r} with a fixed step has no tolerance",
-            hint=f"leave out rtol; or leave out step and take {', '.join(('auto', *CHOOSING))}",
+            hint=f"leave out rtol; or leave out step and use {', '.join(('auto', *CHOOSING))}",
         )
     try:
         value = read_parameter_value(rtol, RuntimeParameter("rtol", "", 0.0, False, (0, 0, 0)))
     except InputError:
         value = math.nan
-    smallest = SMALLEST_COMPENSATED if method in SMOOTH else SMALLEST
+    smallest = MIN_RTOL_COMPENSATED if method in SMOOTH else MIN_RTOL
     if not smallest <= value < 1.0:
         message = f"{value:g}" if math.isfinite(value) else repr(rtol)
         raise BadValueError(
-            f"rtol is {message}: expected a share from {smallest:g} to 1, such as 1e-8",
-            hint="below that rounding would be controlled" if 0.0 < value < 1.0 else "",
+            f"rtol is {message}: expected a number from {smallest:g} to 1, such as 1e-8",
+            hint="smaller tolerances are below rounding errors" if 0.0 < value < 1.0 else "",
         )
     return value
 
@@ -83,7 +84,7 @@ def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool)
 def select_stiff_method(source: KernelSource, rtol: float) -> str:
     """Return the name of the stiff method that `auto` uses for a scene at a tolerance.
 
-    For a scene with a film whose library has stages, a tight tolerance selects the higher order.
+    It is rodas5p, or with a film radau5 (radau9 for rtol below FINE) if the library has their stages.
     """
     return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
 
@@ -101,7 +102,7 @@ def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
 
 
 def select_explicit_method(source: KernelSource, rtol: float) -> str:
-    """Return the name of the explicit method of `auto`: Taylor's below the tolerance from which it takes less time.
+    """Return the name of the explicit method of `auto`: TAYLOR for tolerances at which it is faster, else EXPLICIT.
 
     The generator predicts this tolerance from the numbers of operations (generator/kernels/taylor.py).
     """
@@ -123,7 +124,7 @@ def _has_film(source: KernelSource) -> bool:
 def find_method_numbers(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
     """Return C's numbers of the first method and of the stiff one to which a run may switch; 0: it may not switch.
 
-    Only "adaptive", which is what auto runs, may switch.
+    Only runs by "adaptive", the internal name of the method of "auto", may switch.
     """
     if method != ADAPTIVE:
         return int(compiled.lib.gudgeon_method(method.encode())), 0
@@ -146,7 +147,7 @@ def compute_error_lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Arr
 @cache_by_values
 def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
     """Return a mask (n_x,) of the integrated coordinates that are angles, for either formulation."""
-    if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
+    if source.formulation == "reduced":  # tree coordinates: angles are named by their bodies, lengths "guide.slide"
         return np.array(["." not in name for name in source.tree], dtype=bool)
     return find_angles(source)
 
@@ -155,8 +156,8 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     """Return the error tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2), for the time loop in C.
 
     The first n_x are those of coordinates, the others those of velocities per unit of speed. Without integrated
-    coordinates there is one, rtol, with which works are integrated. Films have tighter
-    velocities. `p` (..., n_slots + n_derived) holds the parameter values of one run, or of several.
+    coordinates there is one, rtol, for the works. With a film, tolerances of velocities are smaller. `p`
+    (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
     with np.errstate(over="ignore", invalid="ignore"):  # runs with such values fail later, one by one
@@ -177,41 +178,47 @@ def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: flo
     `length`, `size`: floats or arrays; the tolerance of velocities is a float if all runs have the same.
     """
     ratio = length / size
-    return rtol * ratio, rtol * length, np.minimum(rtol, FELT_BY_FILMS * length / size) if _has_film(source) else rtol
+    return (
+        rtol * ratio,
+        rtol * length,
+        np.minimum(rtol, MAX_FILM_SPEED_ERROR * length / size) if _has_film(source) else rtol,
+    )
 
 
-def compute_scales_of_runs(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
-    """Return `compute_tolerances` of n runs, (n, 2 n_x) and (n, 2), and the sizes (m) of their mechanisms, (n,).
+def compute_tolerances_of_runs(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Return error tolerances (n, 2 n_x), L and L/S (n, 2), and mechanism sizes S (n,) in m of n runs.
 
-    Those of a single run are computed once for equal values: do not change them. `p` (n, n_slots + n_derived).
+    Arrays of a single run are cached for equal lengths and must not be changed. `p` (n, n_slots + n_derived): parameter
+    values.
     """
     if len(p) > 1:
-        return _compute_scales(compiled, p, rtol)
-    return _compute_scales_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
+        return _compute_tolerances_and_sizes(compiled, p, rtol)
+    return _compute_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
 
 
-def _compute_scales(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
-    """Compute the scales of runs for `compute_scales_of_runs`."""
+def _compute_tolerances_and_sizes(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Return what `compute_tolerances_of_runs` returns, for several runs, without a cache."""
     return *compute_tolerances(compiled, p, rtol), compute_mechanism_sizes(compiled.source, p)
 
 
 @cache_by_values
-def _compute_scales_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
-    """Return what `compute_scales_of_runs` does for one run: tolerances (1, 2 n_x), (L, L/S) (1, 2) and S (1,).
+def _compute_tolerances_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Return what `compute_tolerances_of_runs` returns for one run: tolerances (1, 2 n_x), (L, L/S) (1, 2), S (1,).
 
     `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
     """
     values = spread_lengths(compiled.source, lengths).tolist()
-    scale, least, size = compute_scales_of_values(compiled.source, values, rtol)
+    scale, least, size = compute_tolerances_of_values(compiled.source, values, rtol)
     return scale[None], np.array([least]), np.array([size])
 
 
-def compute_scales_of_values(
+def compute_tolerances_of_values(
     source: KernelSource, values: Sequence[float], rtol: float
 ) -> tuple[Array, tuple[float, float], float]:
-    """Return what `compute_scales_of_runs` does for one run, bit for bit, without NumPy's time for short arrays.
+    """Return error tolerances (2 n_x,), L and L/S, and S (m) of one run, from its parameter values (n_p,).
 
-    These are the error tolerances (2 n_x,), at least one, L and L/S, and S (m). `values`: parameter values (n_p,).
+    The numbers equal those of `compute_tolerances_of_runs` bit for bit; plain floats save time. Without integrated
+    coordinates the only tolerance is rtol.
     """
     size = compute_size_of_values(find_size_indices(source), values)
     length = min((c for c in (values[joint.clearance] for joint in source.clearances) if c > 0.0), default=size)

@@ -1,4 +1,4 @@
-"""Drive the time loop in C (engine/batch/ensemble.c) for one run or many, and own the arrays that the runs fill.
+"""Call the time loop in C (engine/batch/ensemble.c) for one run or many, with arrays that the runs fill.
 
 A call of C integrates runs from start to end without Python's global lock. Python distributes the runs and fetches the
 lists of contacts and events. Many runs use threads (threads.py); a single one stays in the calling thread
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.guess_warnings import find_guess_deviations
-from gudgeon.assembly.large import LARGE
+from gudgeon.assembly.large import MIN_SPARSE_COORDINATES
 from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.boundary import (
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 PythonLoop: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
-CHUNK = 4_000  # steps of one call of C, which polls Python for cancellation meanwhile (cancellation.py)
+MAX_STEPS_PER_CALL = 4_000  # steps of one call of C, within which it polls Python for cancellation (cancellation.py)
 MAX_UNSTORED_SAMPLES = 4096  # largest number of samples of finished runs that wait to be stored together
 
 
@@ -87,15 +87,15 @@ class Runs(StoredRuns):
         is_in_c = is_kinematic or not python_loop
         has_lanes = side_by_side and is_in_c and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
-            compiled.lib.wait_for_optimized_library()  # whose functions are called from within lanes, for all runs
+            compiled.lib.wait_for_optimized_library()  # lanes call its functions
         has_series = adaptive.uses_series(compiled.source, method, rtol)
         self.lane_provider = LaneProvider(compiled, has_series) if has_lanes else None
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
-            self.n_lanes = min(self.n_lanes, max(lanes.ALWAYS, MAX_UNSTORED_SAMPLES // N))
+            self.n_lanes = min(self.n_lanes, max(lanes.MIN_SHARED_ROWS, MAX_UNSTORED_SAMPLES // N))
         n_spare = (
             min(self.n_lanes, MAX_UNSTORED_SAMPLES // N) if self.lane_provider else 0
-        )  # of runs that are over, and not taken yet
+        )  # rows of finished runs that are not stored yet
         self.n_rows_per_thread = self.n_lanes + n_spare  # rows of samples per thread
         if is_kinematic:
             self.n_rows_per_thread = count_kinematic_rows(N)
@@ -111,15 +111,18 @@ class Runs(StoredRuns):
         )
         self.struct: Any = None if python_loop else self._make_batch_struct()
         self.kinematic = KinematicEnsemble(compiled, self.arrays, times) if is_kinematic else None
-        # guesses of the start that the assembly could not follow, by run
+        # deviations of the assembled start from the guesses of the file, by run
         self.guess_deviations: dict[int, dict[str, float]] = {}
         self.observers: Sequence[StepCallback | None] = ()  # observers of all steps, one per run; empty without any
         self.resumed = set[int]()  # runs that resume from a state
 
     def _make_batch_struct(self) -> Any:
-        """Return the struct Batch of C with pointers to all arrays, which are made contiguous; not for Python loops."""
+        """Return C's struct Batch with pointers to all arrays; not for time loops in Python.
+
+        Arrays of parameters, times and tolerances in `arrays` are replaced by contiguous ones.
+        """
         compiled, x, times = self.compiled, self.arrays, self.times
-        scale, least, size = adaptive.compute_scales_of_runs(compiled, x["p"], self.rtol)
+        scale, least, size = adaptive.compute_tolerances_of_runs(compiled, x["p"], self.rtol)
         if isinstance(x, SingleRunArrays):
             x["t"][:], x["n_requested"][0] = times.t, times.count[0]
             x["scale"][:], x["least"][:], x["size"][:] = scale, least, size
@@ -132,7 +135,7 @@ class Runs(StoredRuns):
             struct = compiled.ffi.new("Batch *")
             set_pointers(compiled.ffi, struct, self.arrays)
         struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, compiled.n_p
-        struct.limit = CHUNK
+        struct.limit = MAX_STEPS_PER_CALL
         struct.choice, struct.automatic = adaptive.find_method_numbers(compiled, self.method, self.rtol)
         struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"].item(0)), self.stop, self.audit
         return struct
@@ -143,18 +146,18 @@ class Runs(StoredRuns):
         return self.__dict__ | none | {"observers": ()}
 
     def release_samples(self) -> None:
-        """Release the samples of all runs and C's struct, after `store_results` has stored what is needed of them."""
+        """Release the samples of all runs and C's struct; called after `store_results` has stored the series."""
         self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
         self.arrays.pop("a", None)
         self.struct, self.kinematic, self.store_results = None, None, None
 
     @property
     def is_stopping(self) -> bool:
-        """Return whether all runs shall end where they are; C reads the same flag."""
+        """Return whether the batch was cancelled, so that all runs end where they are; C reads the same flag."""
         return bool(self.arrays["ending"][0])
 
     def set_starts(self, starts: Sequence[State | Problem]) -> None:
-        """Set the states from which the runs begin, one each, at the first of their times; others are assembled later.
+        """Set the start states of the runs, one each, at the first of their times; [] lets all starts be assembled.
 
         A state with contact codes marks its run as resumed.
         """
@@ -183,7 +186,7 @@ class Runs(StoredRuns):
                 if self._has_starts_in_python:
                     self._assemble_starts(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
                 integrate_runs_in_threads(self, progress, range(self.n), ctrl_c)
-                if unassembled := self._find_unassembled_runs():
+                if unassembled := self._reset_unassembled_runs():
                     integrate_runs_in_threads(self, progress, self._assemble_starts(unassembled, ctrl_c), ctrl_c)
                 ctrl_c.raise_delayed()
             except KeyboardInterrupt:
@@ -194,16 +197,16 @@ class Runs(StoredRuns):
     @property
     def _has_starts_in_python(self) -> bool:
         """Return whether Python assembles all starts, because C does not or because they must be checked."""
-        is_in_c = self.struct or (self.kinematic and self.compiled.n < LARGE and not self.observers)
+        is_in_c = self.struct or (self.kinematic and self.compiled.n < MIN_SPARSE_COORDINATES and not self.observers)
         return not is_in_c or bool(list_redundant_equations(self.compiled))
 
     def _record_failures(self) -> None:
         """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN.
 
-        Interrupted runs are recorded as SolverError. Shared rows of samples are not filled.
+        Interrupted runs and runs that never began are recorded as SolverError. Shared rows of samples are not filled.
         """
         x = self.arrays
-        self._find_unassembled_runs()
+        self._reset_unassembled_runs()
         for i in np.flatnonzero(x["phase"] != OVER).tolist():
             self.failures[i] = SolverError(INTERRUPTED, float(x["t_last"][i]))
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
@@ -216,8 +219,8 @@ class Runs(StoredRuns):
         for i in np.flatnonzero(~without_samples & (x["done"] < self.times.max_count)).tolist():
             x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
-    def _find_unassembled_runs(self) -> list[int]:
-        """Return the indices of runs whose start C could not assemble, and mark these runs as new again."""
+    def _reset_unassembled_runs(self) -> list[int]:
+        """Reset runs whose start C could not assemble to runs that have not begun, and return their indices."""
         unassembled: list[int] = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
         self.arrays["phase"][unassembled], self.arrays["status"][unassembled] = NEW, 0
         return unassembled
@@ -225,8 +228,8 @@ class Runs(StoredRuns):
     def _assemble_starts(self, runs: Sequence[int], ctrl_c: DelayedCtrlC) -> list[int]:
         """Assemble the starts of these runs in Python and store them; return the indices of runs that may begin.
 
-        Given starts are only checked. A run whose start does not close is recorded as failed. Guesses that were not
-        followed are stored. Ctrl-C is polled before each run.
+        Starts that were set before are only checked for redundant equations. A run whose start does not close is
+        recorded as failed. Deviations from guesses are stored in `guess_deviations`. Ctrl-C is polled before each run.
         """
         x = self.arrays
         for i in runs:
@@ -266,7 +269,7 @@ class Runs(StoredRuns):
         )
 
     def poll_cancellation(self) -> None:
-        """Raise KeyboardInterrupt if all runs shall end; a time loop in Python calls it to poll for cancellation."""
+        """Raise KeyboardInterrupt if the batch was cancelled; time loops in Python call it."""
         if self.is_stopping:
             raise KeyboardInterrupt
 
@@ -284,7 +287,7 @@ class Runs(StoredRuns):
                     replace(self.build_problem(i), poll_cancellation=self.poll_cancellation, observer=observer)
                 ),
             )
-        except KeyboardInterrupt:  # before it had anything
+        except KeyboardInterrupt:  # before the first sample
             return
         except GudgeonError as error:
             self.exclude_runs({i: error})
@@ -294,10 +297,10 @@ class Runs(StoredRuns):
     def integrate_kinematic_runs(
         self, indices: Sequence[int], storages: NDArray[np.uint8], lanes: Lanes | None
     ) -> None:
-        """Compute these kinematic runs in C, and those that fail again in Python, which finds the cause; store them.
+        """Compute these kinematic runs in C, repeat failed ones in Python, which finds the cause, and store all.
 
-        Runs whose start C could not assemble are left as they are. `storages`: memory of C, a row for each of the
-        `lanes`.
+        Runs whose start C could not assemble are left for `integrate_all_runs`. `storages`: memory of C, a row for each
+        of the `lanes`.
         """
         assert self.kinematic
         self.kinematic.compute_runs(indices, storages, lanes)
@@ -305,7 +308,10 @@ class Runs(StoredRuns):
         self.store_finished_runs([i for i in indices if i not in failed])
 
     def _repeat_failed_runs_in_python(self, indices: Sequence[int]) -> list[int]:
-        """Compute those of the runs that failed in C again in Python, store them, and return their indices."""
+        """Compute those of the runs that failed in C again in Python, store them, and return their indices.
+
+        Runs that were cancelled, or whose start C could not assemble, are not repeated.
+        """
         x, status = self.arrays, self.arrays["status"]
         ended = [int(i) for i in np.array(indices, np.intp)[status[indices] != 0]]
         failed = [i for i in ended if status[i] not in (NOT_CLOSED, STOPPED)]
@@ -314,10 +320,11 @@ class Runs(StoredRuns):
             self.integrate_run_in_python(i)
         return failed
 
-    def complete_runs(self, indices: Sequence[int]) -> list[int]:
+    def recompute_runs_in_full(self, indices: Sequence[int]) -> list[int]:
         """Compute kinematic runs again with all states and works, unless C has stored them, before Python checks them.
 
-        Return the indices of the runs to check. Those that fail now are stored already; interrupted ones are dropped.
+        Return the indices of the runs to check, without those that fail now, which are stored already, and without
+        interrupted ones.
         """
         x, again = self.arrays, [i for i in indices if i not in self.python_lists]
         if not again or not self.kinematic or self.kinematic.is_complete:
@@ -328,17 +335,18 @@ class Runs(StoredRuns):
         return [i for i in indices if x["phase"][i] == OVER and i not in failed]
 
     def integrate_run_to_end(self, i: int, storage: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
-        """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
+        """Integrate run i in C, alone in this thread, from its current state to its end, and store its results.
 
-        `storage`: storage of C's integrator; `step_log`: step record for an observer. None without an observer.
+        `storage`: memory of C's integrator, which may have begun the run. `step_log`: step record for the observer;
+        None without one.
         """
         self.integrate_runs_sequentially(i, i + 1, storage, step_log)
         self.store_finished_runs([i])
 
     def store_finished_runs(self, runs: Sequence[int]) -> None:
-        """Pass those of the given runs that have ended to `store_results`; do nothing if it is None.
+        """Pass those of the runs that have ended to `store_results`; do nothing if it is None.
 
-        Runs whose start C could not assemble are skipped. Their rows of samples may be reused after that.
+        Runs whose start C could not assemble are skipped. Rows of samples of the others may be reused after that.
         """
         x = self.arrays
         if not self.store_results or not len(runs):
@@ -355,21 +363,21 @@ class Runs(StoredRuns):
         storage: NDArray[np.uint8],
         step_log: StepLog | None,
     ) -> None:
-        """Integrate runs first to end − 1 in C, one after the other, in the calling thread.
+        """Integrate runs `first` to `end` − 1 in C, one after the other, in the calling thread.
 
-        Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `storage`: storage of
-        C's integrator. `step_log`: step record for observers; None: without an observer.
+        Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `storage`: memory of
+        C's integrator. `step_log`: step record for observers; None without observers.
         """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         compiled.lib.switch_library_if_ready()
         run = compiled.pointer(storage, "void *")
-        while current[0] < end:  # what has begun is handed over even where the batch is ending
+        while current[0] < end:  # results of begun runs are fetched even if the batch was cancelled
             status = compiled.lib.gudgeon_ensemble(self.struct, run, current, end)
             if status in (LISTS, RUN_OVER):
                 self.fetch_contacts_and_events(int(current[0]), run, status == RUN_OVER)
                 if step_log:
                     step_log.observer = self.observers[int(current[0])]
-                    step_log.pass_steps(run)
+                    step_log.flush_rows(run)
             current[0] += status == RUN_OVER
 
     def _build_error(self, i: int) -> GudgeonError:

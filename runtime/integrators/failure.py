@@ -1,4 +1,4 @@
-"""Explain why a run failed: errors for the status codes of the time loops in C (engine/boundary.h)."""
+"""Diagnose why a run failed: errors for the status codes of the time loops in C (engine/boundary.h)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from gudgeon.language.functions import WITH_SWITCHING_POINTS
 from gudgeon.language.tree import list_functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_max_clearance
-from gudgeon.model.written import (
+from gudgeon.model.file_expressions import (
     evaluate_at_times,
     explain_undefined_rate,
     explain_undefined_value_after,
@@ -46,28 +46,28 @@ from gudgeon.model.written import (
 
 # messages by status
 MESSAGES = {
-    FRICTION_INCONSISTENT: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring "
-    "the surfaces nearer, or grow beyond all bounds (Painlevé)\n"
-    "  less friction, or surfaces that give: another normal law",
-    NOT_FOUND: "the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
-    "  a shorter step, or none: then it chooses its own",
+    FRICTION_INCONSISTENT: "friction jams a contact of newton_restitution at t = {t:.9g} s: with it, normal forces "
+    "accelerate the surfaces towards each other, or grow beyond all bounds (Painlevé)\n"
+    "  use less friction, or an elastic normal law",
+    NOT_FOUND: "the stages of {method}'s step were not found at t = {t:.9g} s: the step is too long\n"
+    "  use a shorter step, or leave out step: the method then controls it",
 }
 SHORTER = "the step {:.3g} s is too long for this scene: take a smaller one"
-ADVICE = "the motion may leave what the model holds for; look at the last samples"
+ADVICE = "the motion may leave the validity of the model: inspect the last samples"
 INTERRUPTED = "interrupted before its end"
-NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
-NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
-BOUNDED = "write the drive with powers of 2 and more, or end the run before that; a looser rtol may lead past it"
+NO_NUMBER = "end the run before that time, or write the expression so that it and its rates are finite at all times"
+NO_SLOPE = "use method dop853, which needs no slopes, or write the force so that its slope is finite there"
+BOUNDED = "write the drive with powers of 2 and more, or end the run before that; a larger rtol may step over it"
 GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
 JUMPS = (
-    "a force that jumps with the sign of a speed v may hold v at zero: use a dry_friction element; of one that jumps at"
-    " a speed v1 make the jump smooth: tanh((v - v1) / v0) over a small speed v0"
+    "a force that jumps with the sign of a speed v may hold v at zero: use a dry_friction element; replace a jump at a"
+    " speed v1 by a smooth function: tanh((v - v1) / v0) with a small speed v0"
 )
-SLOWER = "a slower drive can be followed: look at its unit"
-OVERFLOWING = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
+SLOWER = "use a slower drive: check its unit"
+OVERFLOWING_RATE = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
 # smallest change (rad or m) of a drive in one step that counts as motion; rate in rad/s or m/s that is too fast
-FELT, TOO_FAST = 1e-3, 1e9
-NEARLY_CLOSED = 0.99  # e/c of a film beyond which its law causes the failure
+MIN_DRIVE_MOTION, MAX_DRIVE_RATE = 1e-3, 1e9
+MIN_SQUEEZED_RATIO = 0.99  # e/c of a film beyond which its law causes the failure
 REMEDY = (
     "the result cannot be trusted: compare with another method, a smaller rtol or formulation full; audit=False runs"
     " without this check"
@@ -75,7 +75,7 @@ REMEDY = (
 
 
 def build_run_error(compiled: CompiledModel, method: str, values: Mapping[str, Any], t_end: float) -> SolverError:
-    """Build the error of a run to t_end (s) that C ended, from the values that C stored of it.
+    """Build the error of a run to t_end (s) that C ended, from the values that C stored for the run.
 
     `values`: status, t_last, step and others by the names of Batch (engine/scene/calls.h).
     """
@@ -83,7 +83,7 @@ def build_run_error(compiled: CompiledModel, method: str, values: Mapping[str, A
     e_max, last = values["peaks"][: len(compiled.source.clearances), PEAK_e_max], values["last"]
     if status == STALLED:
         return _build_stalled_error(compiled, values, t_end, e_max)
-    if math.isfinite(step):  # it evaluates so far after the last state
+    if math.isfinite(step):  # a fixed step evaluates up to its end, after the last state
         return _build_status_error(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
     return _build_status_error(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
 
@@ -126,7 +126,7 @@ def _build_status_error(
             return _build_unbounded_drive_error(drive, t)
         if method in NEED_SLOPES and (reason_text := find_steep_force(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{reason_text}\n  {NO_SLOPE}", t)
-        fast_drives = format_drive_states(compiled, p, t, TOO_FAST)
+        fast_drives = format_drive_states(compiled, p, t, MAX_DRIVE_RATE)
         advice = GROWN if fast_drives else advice
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast_drives}\n  {advice}", t)
@@ -140,8 +140,8 @@ def _build_status_error(
         )
         return known_error or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drives}\n  {advice}", t)
     if status == LOST:
-        lies = {True: "a free corner lies in its wall", False: "a free journal lies outside its bearing"}
-        which = sorted({lies[joint.is_corner] for joint in compiled.source.clearances}, reverse=True)
+        lost = {True: "an open corner is inside its wall", False: "an open journal is outside its bearing"}
+        which = sorted({lost[joint.is_corner] for joint in compiled.source.clearances}, reverse=True)
         return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(which)}", t)
     if status == OUTSIDE:
         return _build_penetration_error(compiled, e_max, p, t)
@@ -161,14 +161,15 @@ def _build_unbounded_drive_error(drive: str, t: float) -> SolverError:
 
 
 def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
-    """Build the error for endless changes of contacts or switching points at one time t (s).
+    """Build the error for endless changes of contacts or switching points at one time t (s) (chattering).
 
     Its advice depends on whether the scene has rigid contacts, dry friction, or forces with switching points.
     """
     if compiled.source.rigid:
         return SolverError(
-            f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
-            f"  a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)} closes them earlier",
+            f"contacts collide, or open and close, without end near t = {t:.9g} s\n"
+            f"  use a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)}, which closes them"
+            " earlier",
             t,
         )
     source = compiled.source
@@ -176,7 +177,7 @@ def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
     advice = [used] if source.frictions else []
     if _format_forces_with_switching_points(source) or not advice:
         advice.append(f"  {JUMPS}")
-    message = f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s"
+    message = f"a friction or another switching point of the forces changes its branch without end near t = {t:.9g} s"
     return SolverError("\n".join([message, *advice]), t)
 
 
@@ -185,16 +186,16 @@ def _build_singular_error(
 ) -> SolverError:
     """Build the error for a vanishing pivot of the constraint equations at t (s); status − 1 is its index.
 
-    The error names a dead centre of driven loops, a singular position, or a motion that diverged before. `last_state`:
-    last state (2n + 3,); `fast_drives`: text on fast drives.
+    It reports a dead centre of driven loops, a singular position, or a motion that diverged before, if the last state
+    is not finite or exceeds 1e12. `last_state`: last state (2n + 3,); `fast_drives`: text on fast drives.
     """
     row = compiled.source.motion_pivots[status - 1]
     if row in compiled.source.chain_rows:
         return SingularError(
-            f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
-            f" row {row}{format_drive_states(compiled, p, t)}\n"
-            "  the lengths do not let the drives move on from there; end the run before it, or change the drive; in rk4"
-            " a shorter step follows a faster one",
+            f"the linkage reaches a dead centre at t = {t:.9g} s: at the position of its drives, constraint equation"
+            f" {row} has no solution{format_drive_states(compiled, p, t)}\n"
+            "  with these lengths the drives cannot move further; end the run before it, or change the drive; rk4 can"
+            " follow a faster drive with a shorter step",
             t,
             row,
         )
@@ -204,7 +205,7 @@ def _build_singular_error(
         finite = bool(np.isfinite(last_state).all())
         if finite and np.abs(last_state).max() < 1e12:
             return error
-        # at a dead centre speeds grow until a pivot drowns in them, while everything stays where it is
+        # at a dead centre, speeds grow until a pivot vanishes by rounding, while positions hardly change
         dead_centre_error = (
             _build_dead_centre_error(compiled, last_state, p, t)
             if finite and _is_within_bounds(compiled, last_state, p)
@@ -212,25 +213,25 @@ def _build_singular_error(
         )
         if dead_centre_error:
             return dead_centre_error
-        where = f"t = {t:.9g} s (constraint row {error.pivot})"
+        where = f"t = {t:.9g} s (constraint equation {error.pivot})"
         return NonFiniteError(f"the motion diverged before {where}{fast_drives}\n  {advice}", t, error.pivot)
-    raise AssertionError(f"status {status} stands for no failure")
+    raise AssertionError(f"status {status} is not a failure")
 
 
 @dataclass(frozen=True)
 class RunProgress:
-    """Describe the progress of a run that no longer advances: time, remaining time, and gain of its last steps (s)."""
+    """Describe the progress of a run that no longer advances: time, remaining time, advance of its last steps (s)."""
 
     t: float
     remaining: float
-    gain: float
+    advance: float  # of the last `steps` steps together
     steps: int
     is_crawling: bool  # whether steps became far shorter than before; else its end is too far away
 
     @property
     def steps_to_end(self) -> float:
-        """Return the number of steps to the end at the speed of the last ones."""
-        return self.remaining / max(self.gain, 1e-300) * self.steps
+        """Return the expected number of steps to the end, if they advance like the last ones."""
+        return self.remaining / max(self.advance, 1e-300) * self.steps
 
 
 def format_drive_states(compiled: CompiledModel, p: Array, t: float, min_rate: float = 0.0) -> str:
@@ -239,26 +240,26 @@ def format_drive_states(compiled: CompiledModel, p: Array, t: float, min_rate: f
     An example is "; drive motor is at 12.3 rad, its rate 2 rad/s". Drives that are not expressions are left out.
     """
     source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
-    written = {info.address.split(".")[1]: tree for info, tree in read_expression_trees(source, ("drives",))}
+    trees = {info.address.split(".")[1]: tree for info, tree in read_expression_trees(source, ("drives",))}
     with np.errstate(all="ignore"):
-        values = {name: evaluate_at_times(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
+        values = {name: evaluate_at_times(source, p, tree, np.array([t]))[0] for name, tree in trees.items()}
     parts = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
         for row, rate in zip(source.start_rows, rates, strict=True)
-        if row.kind == "drive" and row.owner in values and not abs(rate) < min_rate  # a number alone stays where it is
+        if row.kind == "drive" and row.owner in values and not abs(rate) < min_rate  # constants have no rate
     ]
     return "".join(f"; {text}" for text in parts)
 
 
 def build_overflow_error(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
-    """Return the error for drives so fast at t (s) that accelerations overflow; None if there are none.
+    """Return the error for drives whose rates exceed OVERFLOWING_RATE at t (s) and at t/2; None if there are none.
 
-    Drives that are not numbers, or that grow to such speeds, have their own messages.
+    Drives that are not numbers, or that grow to such rates within the run, have their own messages.
     """
     rates = [compiled.closed_nu(s, np.zeros(compiled.n), p) for s in (t, 0.5 * t)]
-    if not (np.abs(rates) >= OVERFLOWING).all(axis=0).any():
+    if not (np.abs(rates) >= OVERFLOWING_RATE).all(axis=0).any():
         return None
-    if fast := format_drive_states(compiled, p, t, OVERFLOWING):
+    if fast := format_drive_states(compiled, p, t, OVERFLOWING_RATE):
         message = f"velocities and accelerations are too large for doubles at t = {t:.9g} s{fast}"
         return NonFiniteError(f"{message}\n  {SLOWER}", t)
     return None
@@ -267,8 +268,8 @@ def build_overflow_error(compiled: CompiledModel, p: Array, t: float) -> NonFini
 def build_runaway_error(progress: RunProgress, drive_states: str) -> SolverError:
     """Build the error for a run whose motion becomes ever faster; `drive_states`: text of `format_drive_states`."""
     return SolverError(
-        f"the motion no longer advances at t = {progress.t:.12g} s: its last {progress.steps} steps gained"
-        f" {progress.gain:.3g} s and less and less, {progress.remaining:.3g} s are left{drive_states}\n"
+        f"the motion no longer advances at t = {progress.t:.12g} s: its last {progress.steps} steps advanced by"
+        f" {progress.advance:.3g} s, each by less, and {progress.remaining:.3g} s remain{drive_states}\n"
         f"  {GROWN}",
         progress.t,
     )
@@ -277,16 +278,18 @@ def build_runaway_error(progress: RunProgress, drive_states: str) -> SolverError
 def build_too_slow_error(progress: RunProgress) -> SolverError:
     """Build the error for a run whose end is too far away at the speed of its last steps."""
     return SolverError(
-        f"the run has come to t = {progress.t:.9g} s, and at the pace of its last {progress.steps} steps the "
-        f"{progress.remaining:.3g} s"
-        f" that are left take {progress.steps_to_end:.1e} more\n"
-        "  take a nearer t_end, or go on from the final state of what was computed, which is kept",
+        f"the run has reached t = {progress.t:.9g} s, and at the pace of its last {progress.steps} steps the remaining "
+        f"{progress.remaining:.3g} s take {progress.steps_to_end:.1e} more\n"
+        "  use an earlier t_end, or resume from the final state of the stored part",
         progress.t,
     )
 
 
 def _format_forces_with_switching_points(source: KernelSource) -> str:
-    """Return the addresses and lines of the file's forces with switching points; "" if there are none."""
+    """Return the addresses and positions in the file of forces with switching points; "" if there are none.
+
+    An example is "forces.push.value.x (line 7, column 12)".
+    """
     force_names = [
         info
         for info, tree in read_expression_trees(source, ("forces",))
@@ -298,8 +301,9 @@ def _format_forces_with_switching_points(source: KernelSource) -> str:
 def _build_stalled_error(compiled: CompiledModel, values: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
     """Return the error of a run to t_end (s) that no longer advances, from the values that C has stored.
 
-    `values` has t_last, p_motion, and gained (s), paced of the last steps. `ended` counts how many of them ended at
-    contacts, switching points of forces, frictions and events. `e_max` (n_clearances,): largest eccentricities.
+    `values` contains t_last, p_motion, the advance `gained` (s) of the last steps, and in `paced` their number and
+    whether they became shorter. `ended` counts the steps that ended at contacts, switching points, frictions and
+    events. `e_max` (n_clearances,): largest eccentricities (m).
     """
     t, (steps, crawls), ended, p = (
         float(values["t_last"]),
@@ -310,32 +314,32 @@ def _build_stalled_error(compiled: CompiledModel, values: Mapping[str, Any], t_e
     progress = RunProgress(t, t_end - t, float(values["gained"]), steps, bool(crawls))
     if not progress.is_crawling:
         return build_too_slow_error(progress)
-    # a drive that still turns on in steps so short is what they are short for
-    fast = format_drive_states(compiled, p, t, FELT * progress.steps / max(progress.gain, 1e-300))
-    film, whose = _format_squeezed_film(compiled, e_max, p), int(ended.argmax())
-    if fast and not film and ended[whose] <= 0.01 * progress.steps:
+    # a drive that moves this far in such a short step is the cause of the short steps
+    fast = format_drive_states(compiled, p, t, MIN_DRIVE_MOTION * progress.steps / max(progress.advance, 1e-300))
+    film, cause = _format_squeezed_film(compiled, e_max, p), int(ended.argmax())
+    if fast and not film and ended[cause] <= 0.01 * progress.steps:
         return build_runaway_error(progress, fast)
-    cornered = _format_forces_with_switching_points(compiled.source)
-    form = f" in {cornered}" if cornered else " of a law"
-    kinds = (
+    switching_forces = _format_forces_with_switching_points(compiled.source)
+    location = f" in {switching_forces}" if switching_forces else " of a law"
+    causes = (
         "a contact begins or ends",
-        f"a force changes its form (a corner{form})",
+        f"a force changes its form (a switching point{location})",
         "friction changes between stick and slip",
         "an event's expression is zero",
     )
-    count = "all" if ended[whose] == progress.steps else str(ended[whose])
+    count = "all" if ended[cause] == progress.steps else str(ended[cause])
     if film:
         why = film
-    elif ended[whose] > 0.01 * progress.steps:
-        why = f"{count} of them ended where {kinds[whose]}: the motion does not get away from there"
+    elif ended[cause] > 0.01 * progress.steps:
+        why = f"{count} of them ended where {causes[cause]}: the motion stays there"
     else:
-        why = "their errors allow no longer ones: what acts there changes fast, or speeds grow"
+        why = "their errors allow no longer steps: forces change fast there, or speeds grow"
     return SolverError(
-        f"the run no longer advances at t = {progress.t:.9g} s: its last {progress.steps} steps gained"
-        f" {progress.gain:.3g} s; {progress.remaining:.3g} s are left, {progress.steps_to_end:.1e} steps at this pace\n"
-        f"  {why}\n"
-        f"  what was computed is kept: look at its last samples, or end the run before; {JUMPS};"
-        " rk4 with a step of its own goes over a jump of a force, with an error",
+        f"the run no longer advances at t = {progress.t:.9g} s: its last {progress.steps} steps advanced by"
+        f" {progress.advance:.3g} s; {progress.remaining:.3g} s remain, {progress.steps_to_end:.1e} steps at this"
+        f" pace\n  {why}\n"
+        f"  the computed part is stored: inspect its last samples, or end the run before; {JUMPS};"
+        " rk4 with a fixed step steps over a jump of a force, with an error",
         progress.t,
     )
 
@@ -347,16 +351,16 @@ def _format_squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> st
     """
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
-        if joint.film and ratio > NEARLY_CLOSED:
+        if joint.film and ratio > MIN_SQUEEZED_RATIO:
             return f"the film in joint {joint.name} is squeezed out, e/c = {ratio:.7g}"
     return ""
 
 
 def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
-    """Build the error for the journal or corner that lies deepest relative to its limit, at t (s).
+    """Build the error for the joint whose penetration is largest relative to its limit, at t (s).
 
-    The limit is a tenth of the bearing's radius, or the validity range of the contact law. `e_max` (n_clearances,):
-    largest eccentricities (m). The error has `outside_model` set.
+    The limit is the smaller of a tenth of the bearing's radius (of half a guide's width) and the validity range of the
+    contact law. `e_max` (n_clearances,): largest eccentricities (m). The error has `outside_model` set.
     """
     _, penetration, law_limit, name, at_wall = max(
         (depth / min(law_limit, 0.1 * float(p[joint.constants["R_i"]])), depth, law_limit, joint.name, joint.is_corner)
@@ -365,12 +369,12 @@ def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t:
         for law_limit in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
     )
     tenth = "a tenth of half the guide's width," if at_wall else "a tenth of its radius,"
-    limit = f"{1e3 * law_limit:.3g} mm, up to which its law of contact holds," if penetration > law_limit else tenth
-    whose, where = (f"corner {name}", "its wall") if at_wall else (f"the journal of {name}", "its bearing")
-    laws, oil = ("laws of contact", "") if at_wall else ("laws of contact and film", ", a thicker oil")
+    limit = f"{1e3 * law_limit:.3g} mm, the validity of its contact law," if penetration > law_limit else tenth
+    body, surface = (f"corner {name}", "its wall") if at_wall else (f"the journal of {name}", "its bearing")
+    laws, oil = ("contact laws", "") if at_wall else ("contact and film laws", ", an oil of higher viscosity")
     error = SolverError(
-        f"{whose} lies {1e3 * penetration:.3g} mm deep in {where}, beyond {limit} at t = {t:.9g} s\n"
-        f"  {laws} hold for far less: a stiffer material{oil} or less speed, and in rk4 a shorter step",
+        f"{body} lies {1e3 * penetration:.3g} mm deep in {surface}, beyond {limit} at t = {t:.9g} s\n"
+        f"  {laws} are valid for far less: use a stiffer material{oil} or less speed, and with rk4 a shorter step",
         t,
     )
     error.outside_model = True
@@ -386,18 +390,18 @@ def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> b
 
 
 def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Array, t: float) -> SolverError | None:
-    """Build the error for a linkage in a dead centre, where constraint equations depend on each other; else None."""
+    """Build the error for a linkage near a dead centre, where constraint equations depend on each other; else None."""
     rows = find_nearly_dependent_equations(compiled, p, t, np.ravel(last_state)[: compiled.n])
     if not rows:
         return None
     advice = (
-        "the lengths do not let the drives move on from there; end the run before it, or change the drive"
+        "with these lengths the drives cannot move further; end the run before it, or change the drive"
         if compiled.source.drives
-        else "links stand in one line there, and which way they go on is undetermined; another rtol may step over it"
+        else "links are in one line there, and their further motion is not determined; another rtol may step over it"
     )
     return SolverError(
-        f"the linkage reaches a dead centre at t = {t:.9g} s: constraint rows {', '.join(rows)} depend on each other\n"
-        f"  {advice}",
+        f"the linkage reaches a dead centre at t = {t:.9g} s: constraint equations {', '.join(rows)} depend on each"
+        f" other\n  {advice}",
         t,
     )
 
@@ -409,10 +413,10 @@ def _build_squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, 
     """
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
-        if joint.film and ratio > NEARLY_CLOSED:
+        if joint.film and ratio > MIN_SQUEEZED_RATIO:
             error = SolverError(
                 f"the film in joint {joint.name} is squeezed out at t = {t:.9g} s: e/c = {ratio:.7g}\n"
-                "  its law is singular at e = c: a thicker oil, or a dry contact beyond it, keeps the surfaces apart",
+                "  its law is singular at e = c: use an oil of higher viscosity, or add a dry contact to the joint",
                 t,
             )
             error.outside_model = True
@@ -421,7 +425,7 @@ def _build_squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, 
 
 
 def build_findings(source: KernelSource, values: Array, t: Array, indices: NDArray[np.intc]) -> tuple[Finding, ...]:
-    """Build the audit findings from what C reports of each check: largest value, time (s), and index of a joint or row.
+    """Build the audit findings from C's results of each check: largest value, time (s), and index of a joint or row.
 
     The arrays are (n_checks,). Negative values mark checks that were not made; they are left out.
     """
@@ -436,7 +440,7 @@ def build_findings(source: KernelSource, values: Array, t: Array, indices: NDArr
 def _get_location_name(source: KernelSource, check: Check, index: int) -> str:
     """Return the name of the joint, row, event or coordinate with this index; "" if it is negative.
 
-    `check` defines what the index means. Other locations are named by kind and index.
+    `check.place` is the kind of object that the index counts, "" for none. Other kinds give "kind index".
     """
     if index < 0 or not check.place:
         return ""
@@ -461,7 +465,7 @@ def build_audit_notes(findings: tuple[Finding, ...]) -> tuple[str, ...]:
 
 
 def format_finding(finding: Finding) -> str:
-    """Return a finding as text: the check, what it compares, how often it exceeds its limit, time (s) and place."""
+    """Return a finding as text: the check, what it compares, its value relative to the limit, time (s) and place."""
     check = next(candidate for candidate in (*CHECKS, *SAMPLE_CHECKS) if candidate.name == finding.check)
     location = f" at {check.place} {finding.place}" if finding.place else ""
     return (

@@ -39,13 +39,18 @@ from gudgeon.integrators.trajectory import (
     make_empty_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.written import explain_undefined_rate, explain_undefined_value_after, explain_undefined_value_between
+from gudgeon.model.file_expressions import (
+    explain_undefined_rate,
+    explain_undefined_value_after,
+    explain_undefined_value_between,
+)
 from gudgeon.waiting.cancellation import CancellationPoll
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
-REACH = 0.05  # rad, or relative to the mechanism's size: after a larger Newton correction, the step is halved
-CHUNK, TURN = 10_000, 0.02  # largest number of samples that are computed together, and their time limit in s
+MAX_CORRECTION = 0.05  # rad, or relative to the mechanism's size: after a larger Newton correction, the step is halved
+# largest number of samples that are computed together, and time (s) after which chunks are halved
+MAX_CHUNK_SAMPLES, MAX_CHUNK_TIME_S = 10_000, 0.02
 
 
 class KinematicRun:
@@ -81,7 +86,11 @@ class KinematicRun:
         motion_struct = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
         size = compute_mechanism_size(self.compiled, self.problem.p)
         self.compiled.lib.gudgeon_kinematic_begin(
-            self.pointer(motion_struct, "void *"), REACH, size, float(self.t[-1]), *self.cancellation_poll.c_arguments
+            self.pointer(motion_struct, "void *"),
+            MAX_CORRECTION,
+            size,
+            float(self.t[-1]),
+            *self.cancellation_poll.c_arguments,
         )
         return motion_struct
 
@@ -110,29 +119,31 @@ class KinematicRun:
                 float(np.nanmean(self._read_progress()[0])) if self.has_first_sample else t[0]
             )  # of motion and works
             self.problem.progress(
-                float(mean_time - t[0]) / max(float(t[-1] - t[0]), 1e-300), "following the constraints"
+                float(mean_time - t[0]) / max(float(t[-1] - t[0]), 1e-300), "solving the constraint equations"
             )
 
     def integrate(self) -> None:
         """Compute all samples in chunks: the motion, its events, then its works, and pass steps to the observer.
 
-        Chunks grow while they are fast. An event may end the run. Raises SolverError where the motion cannot be
-        followed, and KeyboardInterrupt.
+        Chunks are doubled while they take less than MAX_CHUNK_TIME_S. An event may end the run. Raises SolverError
+        where the equations have no solution, and KeyboardInterrupt.
         """
         first, last, chunk = 0, len(self.t) - 1, 1
         while first < last or not self.has_first_sample:
             before = perf_counter()
             end, failed = self._compute_motion(first, min(first + chunk, last))
-            stops = self.events is not None and end > first and self.events.find_events(self, first, end)
+            stops = self.events is not None and end > first and self.events.search_events(self, first, end)
             if stops:
                 end = last = self._truncate_at_event(first, end)
             self.last_complete = self._compute_works(first, end)
             if self.steps:
-                self.steps.pass_steps(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
+                self.steps.flush_states(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
             if failed and not stops:
                 raise self._build_error(failed)
             first = end
-            chunk = max(1, min(2 * chunk, CHUNK) if perf_counter() - before < TURN else chunk // 2)
+            chunk = max(
+                1, min(2 * chunk, MAX_CHUNK_SAMPLES) if perf_counter() - before < MAX_CHUNK_TIME_S else chunk // 2
+            )
             self.poll_and_report_progress()
 
     @property
@@ -141,7 +152,7 @@ class KinematicRun:
         return not np.isnan(self.a[0]).all()
 
     def _compute_motion(self, first: int, last: int) -> tuple[int, int]:
-        """Compute q, q̇, q̈ of the samples after `first` up to `last`, from the state of C's struct.
+        """Compute q, q̇, q̈ of the samples after `first` up to `last`, from the last position in C's struct.
 
         Return the index of the last computed sample, and the status of C (0: no failure). Recorded steps are fetched
         when C's list is full. Raises KeyboardInterrupt.
@@ -212,7 +223,7 @@ class KinematicRun:
         return last
 
     def _build_error(self, status: int) -> SolverError:
-        """Build the error for a nonzero status of C: no progress, an undefined value, or no solution."""
+        """Build the error for a nonzero status of C: no progress (STALLED), an undefined value, or no solution."""
         failure_time, time_advance, steps, is_slowing = self._read_progress()
         t, t_end = float(failure_time[0]), float(self.problem.t[-1])
         if status == STALLED:
@@ -227,8 +238,9 @@ class KinematicRun:
         return _build_motion_error(self.problem, status, t, self._compute_positions(t))
 
     def _compute_positions(self, t: float) -> Array:
-        """Return the coordinates (n,) at t (s), followed from the last complete sample; that sample if t is not
-        later.
+        """Return the coordinates (n,) at t (s), continued from the last complete sample.
+
+        If t is not later than that sample, its coordinates are returned.
         """
         k = self.last_complete
         if not self.has_first_sample or not t > self.t[k]:
@@ -244,7 +256,7 @@ class KinematicRun:
             compiled.source, p, t, self.q[self.last_complete], self.v[self.last_complete]
         )
         why = why or explain_undefined_rate(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
-        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{format_drive_states(compiled, p, t)}"
+        why = why or f"drives or forces are not finite at t = {t:.9g} s{format_drive_states(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
 
     def _read_progress(self) -> tuple[Array, float, int, int]:
@@ -313,7 +325,7 @@ def integrate_kinematic(problem: Problem) -> Trajectory:
 
 
 def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """Compute q and q̇ (T, n) of a kinematic motion at times t (T,) in s, following it from the state q, v at t[0].
+    """Compute q and q̇ (T, n) of a kinematic motion at times t (T,) in s, continued from the state q, v at t[0].
 
     Rows after a failure are NaN. Nothing polls for Ctrl-C.
     """
@@ -327,7 +339,7 @@ def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: 
     every_q[0], every_v[0] = q, v
     where, null = pointer(motion_struct, "void *", True), compiled.ffi.NULL
     size = compute_mechanism_size(compiled, p)
-    compiled.lib.gudgeon_kinematic_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
+    compiled.lib.gudgeon_kinematic_begin(where, MAX_CORRECTION, size, float(t[-1]), null, null, 1.0)
     compiled.lib.gudgeon_kinematic(
         where,
         T - 1,
@@ -343,7 +355,7 @@ def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: 
 
 
 def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> SolverError:
-    """Build the error for a motion that cannot be followed beyond t (s), with coordinates q (n,) there.
+    """Build the error for a kinematic motion that has no solution beyond t (s), with coordinates q (n,) there.
 
     Its cause is the first that applies: overflow, an undefined drive, no position (status < 0), a branching of the
     motion, or a singular position.
@@ -362,7 +374,7 @@ def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> So
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"
             f" there{format_drive_states(problem.compiled, problem.p, t)}\n"
-            "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
+            "  with these lengths the drives cannot move further, or the linkage passes a dead centre",
             t,
         )
     row = problem.compiled.source.start_pivots[status - 1]
@@ -372,15 +384,15 @@ def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> So
         return SingularError(
             f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}"
             f"{format_drive_states(problem.compiled, problem.p, t)}\n"
-            f"  the drives do not tell on which one it goes on: {remedy}",
+            f"  the drives do not determine which branch follows: {remedy}",
             t,
             row,
         )
     return SingularError(
-        f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
-        f" vanished{format_drive_states(problem.compiled, problem.p, t)}\n"
-        "  links lie in one line (a dead centre) or do not reach further, or constraints are redundant: end the run"
-        " before it, or change lengths or drives",
+        f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint equation"
+        f" {row} vanished{format_drive_states(problem.compiled, problem.p, t)}\n"
+        "  links are in one line (a dead centre) or too short, or constraints are redundant: end the run before it, or"
+        " change lengths or drives",
         t,
         row,
     )

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.integrators.kinematic import REACH
-from gudgeon.integrators.lanes import ALWAYS
+from gudgeon.integrators.kinematic import MAX_CORRECTION
+from gudgeon.integrators.lanes import MIN_SHARED_ROWS
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.model.arrays import find_memory_address
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from gudgeon.integrators.lanes import Lanes
 
 C_TYPES = {"B": "unsigned char *", "i": "int *", "l": "long *", "d": "double *"}
-# arrays of the batch that C fills, by their names in the struct KinematicBatch
+# arrays of the batch that C fills, by their names in the struct KinematicBatch; then those that this module adds
 FILLED = ("start", "started", "phase", "y", "a", "done", "status", "t_last", "seconds", "counts", "residuals")
-OWN = ("n_interpolated", "t_interpolated", "is_suspect")
-MAX_RUNS, MAX_SAMPLES = 64, 24_576  # of one call of C, as long as the samples of the lanes are no more
-SHORT = 2_000  # samples: a single run of no more is computed without polls for cancellation
+ADDED = ("n_interpolated", "t_interpolated", "is_suspect")
+MAX_RUNS, MAX_SAMPLES = 64, 24_576  # of one call of C; at least MIN_SHARED_ROWS runs, whatever their samples
+MAX_SHORT_RUN_SAMPLES = 2_000  # samples: a single run of no more is computed without polls for cancellation
 
 
 def has_kinematic_ensemble(source: KernelSource, method: str) -> bool:
@@ -39,11 +39,12 @@ def has_kinematic_ensemble(source: KernelSource, method: str) -> bool:
 
 
 def count_kinematic_rows(n_samples: int) -> int:
-    """Return how many runs of `n_samples` samples one call of C computes: as many as fit into the cache.
+    """Return how many runs of `n_samples` samples one call of C computes, so that they fit into the CPU cache.
 
-    It is a multiple of the number of lanes, so that all of them are used.
+    At most MAX_RUNS with MAX_SAMPLES in all; a multiple of MIN_SHARED_ROWS, and at least that, so that all lanes are
+    used.
     """
-    return max(ALWAYS, min(MAX_RUNS, MAX_SAMPLES // n_samples) // ALWAYS * ALWAYS)
+    return max(MIN_SHARED_ROWS, min(MAX_RUNS, MAX_SAMPLES // n_samples) // MIN_SHARED_ROWS * MIN_SHARED_ROWS)
 
 
 class KinematicEnsemble:
@@ -67,11 +68,11 @@ class KinematicEnsemble:
         }
         self._struct = struct = compiled.ffi.new("KinematicBatch *")
         struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, arrays["p"].shape[1]
-        struct.max_correction, struct.has_states, struct.has_works = REACH, True, True
+        struct.max_correction, struct.has_states, struct.has_works = MAX_CORRECTION, True, True
         struct.largest_a = compiled.pointer(self._largest_a, is_written=True)
         for name, array in self._inputs.items():
             setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char]))
-        for name in (*FILLED, *OWN):
+        for name in (*FILLED, *ADDED):
             array = arrays[name]
             setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char], is_written=True))
         struct.ending = compiled.pointer(arrays["ending"], "int *")
@@ -81,7 +82,7 @@ class KinematicEnsemble:
     def set_series(
         self, series: Sequence[MotionSeries], arrays: Sequence[Array], *, has_states: bool, has_works: bool
     ) -> None:
-        """Let C store series of the motion in `arrays` (n, N). Call it after `set_sample_audit`, before runs begin.
+        """Make C store series of the motion in `arrays` (n, N). Call it after `set_sample_audit`, before runs begin.
 
         Without `has_states`, C stores only the states at audited samples and at the last one. Without `has_works`, it
         computes no works. `is_complete` in `compute_runs` selects both.
@@ -96,20 +97,20 @@ class KinematicEnsemble:
 
     @property
     def is_complete(self) -> bool:
-        """Return whether C stores all states and computes works."""
+        """Return whether the runs store all states and works; False after `set_series` without them."""
         return bool(self._struct.has_states and self._struct.has_works)
 
     def set_sample_audit(self, positions: Array, limits: Array) -> None:
-        """Set the audit of samples: positions in a run, 0 to 1, of the checked ones, and the limits of C's checks.
+        """Set the samples that C audits, and the limits (4,) of its checks, in the order of audit.LIMITS.
 
-        `positions`: at most 8, all samples of a run with no more; `limits`: (4,).
+        `positions`: at most 8 fractions of a run, 0 to 1; runs with no more samples are audited at all of them.
         """
         self._struct.n_drawn = len(positions)
         self._struct.drawn[0 : len(positions)] = positions.tolist()
         self._struct.limit = limits.tolist()
 
     def allocate_storages(self, count: int = 1) -> NDArray[np.uint8]:
-        """Return the memory of C, a row for each of `count` runs under way."""
+        """Allocate and return the memory of C's integrators, a row for each of `count` runs computed at once."""
         return np.zeros((count, self.compiled.lib.gudgeon_kinematic_size()), dtype=np.uint8)
 
     def compute_runs(
@@ -139,10 +140,11 @@ class KinematicEnsemble:
     def compute_short_run(self, problem: Problem) -> bool:
         """Compute the only run of the batch and return whether it is complete.
 
-        Return False for a long run and for one with an observer or a report of progress, which KinematicRun computes,
-        and if C cannot complete it within 0.02 s: KinematicRun then computes it again, with polls for cancellation.
+        Nothing is computed, and False returned, for more than MAX_SHORT_RUN_SAMPLES samples, an observer or a report of
+        progress. Return False too if C cannot complete the run within 0.02 s. KinematicRun then computes it, with polls
+        for cancellation.
         """
-        if len(problem.t) > SHORT or problem.observer or problem.progress:
+        if len(problem.t) > MAX_SHORT_RUN_SAMPLES or problem.observer or problem.progress:
             return False
         self._struct.must_be_short = 1
         self.compute_runs([0], self.allocate_storages())

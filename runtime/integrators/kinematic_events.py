@@ -29,14 +29,14 @@ class KinematicEvents:
         self.signs = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
         self.found_events, self.capacity = make_empty_events(), MAX_LISTED
 
-    def find_events(self, run_state: KinematicRun, first: int, last: int) -> bool:
+    def search_events(self, run_state: KinematicRun, first: int, last: int) -> bool:
         """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
 
         Events are appended to `found_events`. The last interval is searched slightly beyond the end. Raises SolverError
-        where the motion cannot be followed between its samples.
+        where the constraint equations have no solution between the samples.
         """
         times, n_done = run_state.t[first : last + 1], 0
-        if last == len(self.problem.t) - 1:  # a little more, for what is zero at the end
+        if last == len(self.problem.t) - 1:  # searched beyond the end, for zeros at the end
             more = max(4.0 * float(np.spacing(abs(self.end))), 1e-12 * (self.end - float(times[-2])))
             times = np.append(times, self.end + more)
         while n_done < len(times) - 1:
@@ -45,10 +45,10 @@ class KinematicEvents:
             if status == EVENT_STOPS:
                 return True
             if status == EVENTS_FULL:
-                self.capacity *= 4  # one interval may have more than there was room for
+                self.capacity *= 4  # one interval may have more events than the capacity
             elif status and times[n_done] < self.end:
                 t = float(times[n_done])
-                message = f"events cannot be looked for beyond t = {t:.9g} s: no position was found there"
+                message = f"events cannot be searched beyond t = {t:.9g} s: no position was found there"
                 raise SolverError(message, t)
             elif status:
                 break  # beyond the end
@@ -85,9 +85,9 @@ class KinematicEvents:
         return int(status), int(counts[1])
 
     def sort_events(self) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the events sorted by time, not beyond the end, and for each undefined event the first time of that.
+        """Return the events sorted by time, and for each event that became undefined the first time at which it was.
 
-        Both are arrays (EVENT_DTYPE).
+        Both are arrays (EVENT_DTYPE). Times beyond the end are set to the end.
         """
         events, lost = split_undefined_events(self.problem.compiled, self.found_events)
         events["t"] = np.minimum(events["t"], self.end)

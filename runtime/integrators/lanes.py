@@ -1,4 +1,4 @@
-"""Integrate several runs of a batch in the lanes of vector registers, one run per lane (engine/batch/lanes.h).
+"""Integrate several runs of a batch in the lanes of vector registers (SIMD), one run per lane (engine/batch/lanes.h).
 
 Each run has its own steps, and a lane whose run has ended loads the next one. The library of lanes is compiled when a
 batch first needs it.
@@ -31,20 +31,20 @@ if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
     from gudgeon.integrators.steps import StepLog
 
-NONE = -1  # in place of the number of a run
+NO_RUN = -1  # index of an empty lane
 MIN_RUNS = 16  # smallest number of runs for which vectors are used
-# largest number of runs that proceed together, and the number that always may, however many samples they have
-MAX_LANES, ALWAYS = 32, 8
-# s: expected remaining time of a batch from which on its library is compiled; its fraction for kinematic runs,
-# whose library is small
-MIN_REMAINING_S, KINEMATIC_FRACTION = 6.0, 0.25
-_later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
+# largest number of lanes, and the smallest number of rows of samples for them, however many samples a run has
+MAX_LANES, MIN_SHARED_ROWS = 32, 8
+# s: expected remaining time of a batch above which its library of lanes is compiled; factor of this time for
+# kinematic runs, whose library is small
+MIN_REMAINING_S, KINEMATIC_REMAINING_FACTOR = 6.0, 0.25
+_n_later_runs: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
 
 
 # libraries of lanes by scene, and by whether they have the Taylor series
-_made: WeakKeyDictionary[CompiledModel, dict[bool, Lanes]] = WeakKeyDictionary()
-_making = Lock()
-SERIES_MAIN = "lane_series.c"  # main file of the library with the Taylor series
+_loaded_lanes: WeakKeyDictionary[CompiledModel, dict[bool, Lanes]] = WeakKeyDictionary()
+_compile_lock = Lock()
+SERIES_MAIN = "lane_series.c"  # name of the main C file of the library with the Taylor series
 _SERIES_TEXT = '/* The lanes with the Taylor series of the motion. */\n#define LANE_SERIES 1\n#include "lanes.c"\n'
 
 
@@ -57,7 +57,7 @@ class Lanes:
     def __init__(self, compiled: CompiledModel, has_series: bool = False) -> None:
         from gudgeon.loading.build import compile_kernels
 
-        library = compile_kernels(_build_lane_source(compiled, has_series), portable=compiled.portable)
+        library = compile_kernels(_derive_lane_library_source(compiled, has_series), portable=compiled.portable)
         self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single_run_functions())
@@ -73,33 +73,33 @@ class Lanes:
     ) -> None:
         """Integrate all runs of `waiting_runs` in this thread, several in the lanes of one vector, until none is left.
 
-        Lanes that become free are filled with the next run. Each lane has a row of `storages` as its storage. If rows
-        of samples are shared, those from `first_row` on are used. `step_logs`: step records for observers, one per
-        lane. If the batch is stopped, begun runs are ended and stored one by one.
+        Lanes that become free are filled with the next run. Each lane has a row of `storages` as the memory of its
+        integrator. If rows of samples are shared, those from `first_row` on are used. `step_logs`: step records for
+        observers, one per lane. If the batch is stopped, begun runs are ended and stored one by one.
         """
         arguments, rows, run_of_lane = self._build_arguments(runs, storages)
         free_rows, unstored, status = [*range(first_row, first_row + runs.n_rows_per_thread)], list[int](), LISTS
         empty_lanes = [*range(len(rows))]
         while status != ALL_OVER and not runs.is_stopping:
             for k in empty_lanes:
-                if (i := next(waiting_runs, NONE)) != NONE:
+                if (i := next(waiting_runs, NO_RUN)) != NO_RUN:
                     run_of_lane[k] = i
                     if runs.has_shared_rows:
                         runs.arrays["sample_block"][i] = free_rows.pop()
             before = self.ffi.unpack(run_of_lane, len(rows))
             status = self.lib.gudgeon_lanes(*arguments, run_of_lane)
-            empty_lanes = [k for k, i in enumerate(self.ffi.unpack(run_of_lane, len(rows))) if i == NONE]
+            empty_lanes = [k for k, i in enumerate(self.ffi.unpack(run_of_lane, len(rows))) if i == NO_RUN]
             for k in empty_lanes if status != LISTS else range(len(rows)):
-                if before[k] != NONE:
+                if before[k] != NO_RUN:
                     _fetch_results(runs, before[k], rows[k], step_logs[k] if step_logs else None)
-            unstored += [before[k] for k in empty_lanes if before[k] != NONE]
+            unstored += [before[k] for k in empty_lanes if before[k] != NO_RUN]
             if runs.has_shared_rows and len(free_rows) < len(empty_lanes):
                 runs.store_finished_runs(unstored)
                 free_rows += runs.arrays["sample_block"][unstored].tolist()
                 unstored.clear()
         runs.store_finished_runs(unstored)
         for k, i in enumerate(run_of_lane):
-            if i != NONE:
+            if i != NO_RUN:
                 runs.integrate_run_to_end(i, storages[k], step_logs[k] if step_logs else None)
 
     def compute_kinematic_runs(self, batch: int, storages: Sequence[int], indices: NDArray[np.int_]) -> None:
@@ -113,80 +113,85 @@ class Lanes:
         self.lib.gudgeon_kinematic_lanes(self.ffi.cast("void *", batch), self.single, pointers, len(indices), numbers)
 
     def _build_arguments(self, runs: Runs, storages: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
-        """Return three things for calls of C: its arguments, pointers to the rows of `storages`, and an array of run
-        numbers.
+        """Return the arguments of C's gudgeon_lanes, pointers to the rows of `storages`, and the array of run indices.
 
-        The array has one number per lane and is filled with NONE.
+        The array has one index per lane and is filled with NO_RUN.
         """
         rows = [runs.compiled.pointer(storage, "void *") for storage in storages[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
         for k, storage in enumerate(storages[: self.count]):
             pointers[k] = self.ffi.cast("void *", find_memory_address(runs.compiled.ffi, storage))
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
-        return (batch, self.single, pointers), rows, self.ffi.new("long[]", [NONE] * self.count)
+        return (batch, self.single, pointers), rows, self.ffi.new("long[]", [NO_RUN] * self.count)
 
 
 class LaneProvider:
-    """Provide the lanes of a batch, as soon as compiling their library is worth the time."""
+    """Provide the lanes of a batch, as soon as compiling their library saves time."""
 
     def __init__(self, compiled: CompiledModel, has_series: bool = False) -> None:
-        self.compiled, self.has_series, self.count, self.later = compiled, has_series, MAX_LANES, _later.get()
-        self.lanes = self._find_made_lanes()
+        self.compiled, self.has_series, self.count, self.n_later_runs = (
+            compiled,
+            has_series,
+            MAX_LANES,
+            _n_later_runs.get(),
+        )
+        self.lanes = self._get_loaded_lanes()
         if self.lanes is None and (not MIN_REMAINING_S or _is_compiled(compiled, has_series)):
             self.lanes = _load_lanes(compiled, has_series)
         self.began = time.perf_counter()
 
     def get_lanes(self, runs: Runs) -> Lanes | None:
-        """Return the lanes if compiling them pays off for the remaining runs, else None; called before each portion.
+        """Return the lanes, and compile their library first if this saves time; else None. Called before each portion.
 
-        The first thread that finds this compiles their library while the others continue. None is returned if the batch
-        is stopped meanwhile.
+        The calling thread compiles the library while other threads continue and get None. None is also returned if the
+        batch is stopped during the compilation.
         """
-        self.lanes = self.lanes or self._find_made_lanes()  # another batch may have made them
-        if self.lanes is None and self._is_worth_compiling(runs) and _making.acquire(blocking=False):
+        self.lanes = self.lanes or self._get_loaded_lanes()  # another batch may have loaded them
+        if self.lanes is None and self._is_worth_compiling(runs) and _compile_lock.acquire(blocking=False):
             try:
                 with set_cancellation_check(lambda: runs.is_stopping):
                     self.lanes = self.lanes or _load_lanes(self.compiled, self.has_series)
-            except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
+            except KeyboardInterrupt:  # the batch was cancelled: the waiting thread handles Ctrl-C
                 return None
             finally:
-                _making.release()
+                _compile_lock.release()
         return self.lanes
 
-    def _find_made_lanes(self) -> Lanes | None:
+    def _get_loaded_lanes(self) -> Lanes | None:
         """Return the lanes if a batch has loaded them, else None."""
-        return _made.get(self.compiled, {}).get(self.has_series)
+        return _loaded_lanes.get(self.compiled, {}).get(self.has_series)
 
     def _is_worth_compiling(self, runs: Runs) -> bool:
-        """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S, or its fraction.
+        """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S.
 
-        The estimate is based on the time of the runs that are over.
+        For kinematic runs the limit is multiplied by KINEMATIC_REMAINING_FACTOR. The estimate is the mean time of the
+        runs that are over; without any, return False. Runs of later batches count (`announce_later_runs`).
         """
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
-        required = MIN_REMAINING_S * (KINEMATIC_FRACTION if runs.kinematic else 1.0)
-        return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > required
+        required = MIN_REMAINING_S * (KINEMATIC_REMAINING_FACTOR if runs.kinematic else 1.0)
+        return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.n_later_runs - over) / over > required
 
 
 @contextmanager
 def announce_later_runs(n_runs: int) -> Iterator[None]:
     """Announce, for a with block, how many runs follow in later batches, so that lanes are compiled earlier."""
-    token = _later.set(n_runs)
+    token = _n_later_runs.set(n_runs)
     try:
         yield
     finally:
-        _later.reset(token)
+        _n_later_runs.reset(token)
 
 
 def _load_lanes(compiled: CompiledModel, has_series: bool) -> Lanes:
     """Return a library of lanes of a scene, compiled or loaded at the first call and cached for all its batches."""
-    made = _made.setdefault(compiled, {})
+    made = _loaded_lanes.setdefault(compiled, {})
     return made.setdefault(has_series, made.get(has_series) or Lanes(compiled, has_series))
 
 
 def yield_waiting_runs(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
-    """Yield the indices of runs that have not begun, taking portions from the shared queue until it is empty.
+    """Yield the indices of runs that have not begun, from portions that are removed from a shared queue.
 
-    Yielding ends early if the batch is stopped. Several threads may take from the queue.
+    Yielding ends if the queue is empty or the batch is stopped. Several threads may use the queue.
     """
     while portions and not runs.is_stopping:
         try:
@@ -196,8 +201,11 @@ def yield_waiting_runs(runs: Runs, portions: deque[range | list[int]]) -> Iterat
         yield from (i for i in portion if runs.arrays["phase"][i] == NEW)
 
 
-def _build_lane_source(compiled: CompiledModel, has_series: bool) -> KernelSource:
-    """Return the kernel source of a scene with main file and declarations replaced by those of a library of lanes."""
+def _derive_lane_library_source(compiled: CompiledModel, has_series: bool) -> KernelSource:
+    """Return a copy of a scene's KernelSource whose main file and declarations are those of its library of lanes.
+
+    compile_kernels compiles it. `has_series`: the main file of the lanes with Taylor series is added.
+    """
     from gudgeon.loading.engine import list_lane_declarations
 
     main, files = compiled.source.lanes, compiled.source.files
@@ -207,28 +215,28 @@ def _build_lane_source(compiled: CompiledModel, has_series: bool) -> KernelSourc
 
 
 def _is_compiled(compiled: CompiledModel, has_series: bool) -> bool:
-    """Return whether a library of lanes is in the cache."""
+    """Return whether the compiled library of lanes of a scene is in the cache on disk."""
     from gudgeon.loading.build import is_compiled
 
-    return is_compiled(_build_lane_source(compiled, has_series), portable=compiled.portable)
+    return is_compiled(_derive_lane_library_source(compiled, has_series), portable=compiled.portable)
 
 
 def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) -> None:
     """Fetch the contacts and events of run i from C's integrator `run`, and its step record if full or the run is over.
 
-    Recorded steps are passed to the run's observer. Runs whose start C could not assemble are skipped. `step_log` None:
-    without an observer.
+    Recorded steps are passed to the run's observer; `step_log` is None without one. Runs whose start C could not
+    assemble are skipped.
     """
     if runs.arrays["status"][i] == NOT_CLOSED:
         return
     over = bool(runs.arrays["phase"][i] == OVER)
     if step_log and (over or runs.compiled.lib.gudgeon_run_full(run)):
         step_log.observer = runs.observers[i]
-        step_log.pass_steps(run)
+        step_log.flush_rows(run)
     runs.fetch_contacts_and_events(i, run, over)
 
 
 def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:
-    """Return whether the runs of a batch may share vectors: enough runs, a method of the lanes, and a compiler."""
+    """Return whether the runs of a batch may use lanes: MIN_RUNS or more, a method in IN_LANES, and a C compiler."""
     has_lanes = bool(compiled.source.lanes) and method in (*IN_LANES, KINEMATIC)
     return n_runs >= MIN_RUNS and has_lanes and has_compiler()

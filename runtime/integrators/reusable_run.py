@@ -1,4 +1,4 @@
-"""Integrate one run after the other in C in memory that is allocated once, for calls that must be short.
+"""Integrate one run after the other in C in preallocated arrays, for calls that must be short.
 
 Lists of contacts and events are discarded. The results are, bit for bit, those of `Runs` with one run.
 """
@@ -20,11 +20,11 @@ from gudgeon.model.parameter_columns import ParameterColumns
 from gudgeon.model.sizes import is_clearance_unresolved
 from gudgeon.waiting.cancellation import CancellationPoll
 
-N_ROWS = 2  # the present run, and the last one, whose start is copied if the parameters of the start are equal
+N_ROWS = 2  # the current run, and the last one, whose start is copied if the parameters of the start are equal
 
 
 class ReusableRun(Runs):
-    """Integrate the run in row `next_row` of the arrays, whose parameter values `columns` has computed there.
+    """Integrate the run in row `next_row` of the arrays, with the parameter values that `columns` computed there.
 
     `t` (N,): sample times (s) of all runs. `steps` (N_ROWS,): fixed step (s) of each row, infinity without one.
     """
@@ -61,16 +61,17 @@ class ReusableRun(Runs):
         return 1 - self._begun_row
 
     def update_tolerances(self, k: int) -> bool:
-        """Compute size and tolerances of row k from its parameter values, and return whether clearances are resolved.
+        """Compute size and tolerances of row k from its parameter values; return whether all clearances are resolved.
 
-        Nothing is computed if the values that they depend on have not changed.
+        A clearance is not resolved if it is below rounding at the mechanism's size. Nothing is computed if the lengths
+        have not changed since the last call.
         """
         key = self.columns.p[k].take(self.columns.size_slots).tobytes()
         if key == self._tolerance_keys[k]:
             return True
         self._tolerance_keys[k] = b""
         source, x, p = self.compiled.source, self.arrays, self.columns.p[k]
-        x["scale"][k], x["least"][k], size = adaptive.compute_scales_of_values(source, p.tolist(), self.rtol)
+        x["scale"][k], x["least"][k], size = adaptive.compute_tolerances_of_values(source, p.tolist(), self.rtol)
         if is_clearance_unresolved(source, p, size):
             return False
         x["size"][k] = size
@@ -90,9 +91,9 @@ class ReusableRun(Runs):
             self.arrays["started"][k] = 1
             try:
                 status = self._integrate(k)
-            finally:  # so that C copies it to the next run if the parameters of starts are equal, and to no other
+            finally:  # C then copies this start to the next run only if the parameters of starts are equal
                 self.arrays["started"][k] = 0
-                if self._has_guessed_points:  # they depend on parameters that C does not compare
+                if self._has_guessed_points:  # guesses of points depend on parameters that C does not compare
                     self._phase[k] = NEW
         return status
 
@@ -121,5 +122,5 @@ class ReusableRun(Runs):
         self.events.clear()
 
     def build_error(self, k: int) -> Any:
-        """Return the error that ended the run in row k."""
+        """Build the error that ended the run in row k; see Runs._build_error."""
         return self._build_error(k)

@@ -33,7 +33,7 @@ class RunSizes(NamedTuple):
 
 
 def make_run_arrays(n: int, sizes: RunSizes) -> dict[str, NDArray[Any]]:
-    """Return the arrays by name that have a row for each of n > 1 runs, with the values of runs that have not begun."""
+    """Return new arrays by name with a row for each of n > 1 runs, with the values of runs that have not begun."""
     return {
         name: np.full(shape, value, kind) if value else np.zeros(shape, kind)
         for name, (kind, shape, value) in _list_run_fields(n, sizes).items()
@@ -41,7 +41,7 @@ def make_run_arrays(n: int, sizes: RunSizes) -> dict[str, NDArray[Any]]:
 
 
 def set_pointers(ffi: Any, struct: Any, arrays: dict[str, NDArray[Any]]) -> None:
-    """Set the pointers of C's `struct` to arrays of their names; the caller keeps the arrays alive."""
+    """Set the members of C's struct Batch to the addresses of the arrays with their names; callers own the arrays."""
     words = np.frombuffer(ffi.buffer(struct), np.uintp)
     positions = _list_pointer_positions(ffi, tuple((name, x.dtype.char) for name, x in arrays.items()))
     words[positions] = [find_memory_address(ffi, array, C_TYPES[array.dtype.char]) for array in arrays.values()]
@@ -53,32 +53,35 @@ class SingleRunArrays(dict[str, NDArray[Any]]):
     A view of the block is made when an array is read for the first time.
     """
 
-    def __init__(self, layout: Layout, block: NDArray[np.uint8]) -> None:
+    def __init__(self, layout: RunLayout, block: NDArray[np.uint8]) -> None:
         self._layout, self._block = layout, block
 
     @staticmethod
     def allocate(sizes: RunSizes) -> SingleRunArrays:
-        """Return new arrays of a run that has not begun."""
-        layout = _find_layout(sizes)
+        """Allocate and return the arrays of a run that has not begun; samples are not initialized."""
+        layout = _compute_run_layout(sizes)
         arrays = SingleRunArrays(layout, np.empty(layout.n_bytes, FLAG))
         arrays.reset_head(layout.head)
         return arrays
 
     def copy_block(self) -> SingleRunArrays:
-        """Return arrays of the same values in a block of their own."""
+        """Return a copy of the arrays, in a block of its own."""
         return SingleRunArrays(self._layout, self._block.copy())
 
     def copy_head(self) -> NDArray[np.uint8]:
-        """Return a copy of the struct and of all arrays but samples, for `reset_head`."""
+        """Return a copy of the head of the block, which holds the struct and all arrays but samples."""
         return self._block[: len(self._layout.head)].copy()
 
     def reset_head(self, head: NDArray[np.uint8]) -> None:
-        """Set the struct and all arrays but samples to earlier values, and contact codes to 0."""
+        """Set the head of the block to a copy from `copy_head`, and all contact codes to 0."""
         self._block[: self._layout.n_reset] = 0
         self._block[: len(head)] = head
 
     def __missing__(self, name: str) -> NDArray[Any]:
-        """Return the array of that name. Raises KeyError for another name."""
+        """Create, store and return the view of the array `name`; Python calls it at the first access.
+
+        Raises KeyError for another name.
+        """
         offset, kind, shape = self._layout.fields[name]
         self[name] = view = np.ndarray(shape, kind, self._block, offset)
         return view
@@ -96,8 +99,8 @@ class SingleRunArrays(dict[str, NDArray[Any]]):
         return ffi.cast("Batch *", memory)
 
 
-class Layout(NamedTuple):
-    """Hold where the arrays of a run lie in its block, and the values at the beginning of the block."""
+class RunLayout(NamedTuple):
+    """Hold the offsets of the arrays of a run in its block, and the initial values of the head of the block."""
 
     fields: dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]]  # offset (bytes), type and shape by name
     pointers: tuple[tuple[tuple[str, str], ...], NDArray[np.uintp]]  # name and type, and offset, of each array
@@ -160,8 +163,8 @@ def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str
 
 
 @lru_cache(maxsize=64)
-def _find_layout(sizes: RunSizes) -> Layout:
-    """Return the layout of the block of one run; each array begins at a multiple of 8 bytes."""
+def _compute_run_layout(sizes: RunSizes) -> RunLayout:
+    """Return the memory layout of the block of one run, cached by sizes; each array begins at a multiple of 8 bytes."""
     inputs, samples = _list_single_run_fields(sizes)
     values = _list_run_fields(1, sizes) | inputs
     fields, offset = dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]](), STRUCT_BYTES
@@ -174,14 +177,14 @@ def _find_layout(sizes: RunSizes) -> Layout:
         np.ndarray(shape, kind, head, begin)[...] = value
     types = tuple((name, kind.char) for name, (_, kind, _) in fields.items())
     offsets = np.array([begin for begin, *_ in fields.values()], np.uintp)
-    return Layout(fields, (types, offsets), head, fields["t"][0], offset)
+    return RunLayout(fields, (types, offsets), head, fields["t"][0], offset)
 
 
 @lru_cache(maxsize=64)
 def _list_pointer_positions(ffi: Any, types: tuple[tuple[str, str], ...]) -> NDArray[np.intp]:
-    """Return the positions (words) in the struct Batch of the pointers to arrays with these names and types.
+    """Return the positions, in words of 8 bytes, of the pointers to these arrays in C's struct Batch; cached.
 
-    Raises AssertionError if the struct declares a pointer of another type.
+    `types`: pairs of name and type character of NumPy. Raises AssertionError if the struct declares another type.
     """
     members = dict(ffi.typeof("Batch").fields)
     for name, kind in types:

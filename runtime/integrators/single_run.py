@@ -1,7 +1,7 @@
 """Integrate one run in the calling thread, by the time loop in C or in Python: `integrate_problem`.
 
-The memory of a short run in C is used again by later runs of the scene with the same sizes and settings. A Trajectory
-has copies of what C wrote, in one block. Each run in progress has its own memory, also in several threads.
+The arrays of a short run in C are reused by later runs of the scene with the same sizes and settings. A Trajectory
+contains copies of them, in one block. Each run in progress has its own arrays, also in several threads.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.waiting.cancellation import CancellationPoll
 
-MAX_REUSED_SAMPLES = 256  # of a run whose memory is used again
-MAX_FREE = 8  # largest number of such memories of a scene that wait for a run
+MAX_REUSED_SAMPLES = 256  # largest number of samples of a run whose arrays are reused
+MAX_FREE = 8  # largest number of unused runs of a scene that are cached, per key, and of keys
 
 
 class SingleRun(Runs):
@@ -63,7 +63,10 @@ class SingleRun(Runs):
         self.begin_problem(problem)
 
     def begin_problem(self, problem: Problem) -> None:
-        """Set the values of a run in C that has not begun yet; those of the last run are lost."""
+        """Reset the arrays for C, and set start, times, parameter values, tolerances and observer of the next run.
+
+        The results of the previous run are overwritten.
+        """
         compiled, x, n = self.compiled, self.arrays, self.compiled.n
         assert isinstance(x, SingleRunArrays)
         x.reset_head(self._head)
@@ -71,7 +74,7 @@ class SingleRun(Runs):
         is_given = problem.method == "rk4" or problem.p_free is None
         x["p_motion"][0] = problem.p if is_given else problem.p_free
         x["t_last"][0] = problem.t[0]
-        x["scale"][:], x["least"][:], x["size"][:] = adaptive.compute_scales_of_runs(
+        x["scale"][:], x["least"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
             compiled, problem.p[None], self.rtol
         )
         start = x["start"][0]
@@ -84,7 +87,7 @@ class SingleRun(Runs):
         self.observers = [problem.observer] if problem.observer else ()
 
     def release_problem(self) -> None:
-        """Forget the run, whose results have been copied."""
+        """Release the problem, its errors and lists after its results were copied, so that the run can be reused."""
         self._problem, self.observers, self.interrupted = None, (), False
         if self.failures or self.events or self.fetched.of_thread:
             self.failures, self.events, self.fetched = {}, {}, Contacts(self.compiled)
@@ -105,8 +108,8 @@ class SingleRun(Runs):
     def _integrate_in_c(self) -> None:
         """Integrate the run by the time loop in C. After Ctrl-C, the samples up to there remain.
 
-        A failed run is recorded; without any sample, its start becomes the first. Raises KeyboardInterrupt if Ctrl-C
-        came before the first sample.
+        The error of a failed run is recorded in `failures`; without any sample, its start becomes the first. Raises
+        KeyboardInterrupt if Ctrl-C came before the first sample.
         """
         compiled, x, run = self.compiled, self.arrays, self._integrator
         step_log = StepLog(compiled) if self.observers else None
@@ -114,22 +117,22 @@ class SingleRun(Runs):
             step_log.register_rows(run)
         compiled.lib.switch_library_if_ready()
         try:
-            self._make_steps(step_log, self._poll)
+            self._run_time_loop(step_log, self._poll)
         except KeyboardInterrupt:
             if not x["done"][0]:
                 raise
             self.interrupted, x["ending"][0] = True, 1
-            self._make_steps(step_log, lambda: None)
+            self._run_time_loop(step_log, lambda: None)
         if not self.interrupted and x["status"].item(0) not in (0, ENDED):
             self.failures[0] = self._build_error(0)
-        if not x["done"].item(0):  # at least the start
+        if not x["done"].item(0):  # the start becomes the only sample
             rows = x["y"][0], x["latched"][0], x["state"][0]
             to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
             compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
             x["done"][0] = 1
 
-    def _make_steps(self, step_log: StepLog | None, poll: Callable[[], object]) -> None:
-        """Integrate the run to its end, and fetch contacts, events and recorded steps whenever a list is full.
+    def _run_time_loop(self, step_log: StepLog | None, poll: Callable[[], object]) -> None:
+        """Call the time loop in C until the run is over; fetch contacts, events and recorded steps of full lists.
 
         `poll` is called after each call of C.
         """
@@ -141,12 +144,12 @@ class SingleRun(Runs):
                 self.fetch_contacts_and_events(0, run, status == RUN_OVER)
                 if step_log:
                     step_log.observer = self.observers[0]
-                    step_log.pass_steps(run)
+                    step_log.flush_rows(run)
                 current[0] = status == RUN_OVER
             poll()
 
     def _poll(self) -> None:
-        """Raise what a poll from C raised, and poll once more."""
+        """Raise the exception that a poll within C stored, if any, and poll once more."""
         self._cancellation.raise_stored(False)
         self._poll_and_report_progress()
 
@@ -170,13 +173,14 @@ class SingleRun(Runs):
 def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -> Trajectory:
     """Integrate one run, in C or by the time loop `python_loop` in Python, and return its Trajectory.
 
-    Raises KeyboardInterrupt if no sample was reached.
+    Runs in C with at most MAX_REUSED_SAMPLES samples and no observer reuse the arrays of earlier runs. Ctrl-C ends the
+    run where it is. Raises KeyboardInterrupt if no sample was reached.
     """
     if python_loop or len(problem.t) > MAX_REUSED_SAMPLES or problem.observer:
         return SingleRun(problem, python_loop).integrate(problem)
-    free = _list_free_runs(problem)
+    free = _get_reusable_runs(problem)
     try:
-        run = free.pop()  # no other thread has it then
+        run = free.pop()  # removed from the list: no other thread uses it
         run.begin_problem(problem)
     except IndexError:
         run = SingleRun(problem)
@@ -188,8 +192,11 @@ def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -
     return trajectory
 
 
-def _list_free_runs(problem: Problem) -> list[SingleRun]:
-    """Return the list of runs that have ended, whose memory may be used again for a problem."""
+def _get_reusable_runs(problem: Problem) -> list[SingleRun]:
+    """Return the scene's list of unused runs whose sizes and settings fit a problem, for callers to take from.
+
+    A new list is added to the cache for other sizes or settings; if the cache has MAX_FREE lists, it is cleared first.
+    """
     free_runs, is_fixed = problem.compiled.free_runs, math.isfinite(problem.step)
     key = len(problem.t), problem.method, problem.rtol, is_fixed, problem.stop, problem.audit
     if key not in free_runs and len(free_runs) >= MAX_FREE:

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import N_RECORD_HEAD, N_WORK, RECORD_JUMPED, RECORD_T
 from gudgeon.model.compiled import Array, CompiledModel
 
-ROWS = 4096  # rows of a block
+N_ROWS_OF_BLOCK = 4096  # rows of a block
 
 
 @dataclass(frozen=True)
 class Steps:
-    """Hold k states in the order of time, SI units. Where something jumps, both sides are given at nearly one time."""
+    """Hold k states in the order of time, SI units; at a jump, the states before and after it at nearly one time."""
 
     t: Array  # (k,)
     q: Array  # (k, n)
@@ -29,7 +29,7 @@ class Steps:
     work: Array  # (k, 3)
     memory: Array  # (k, n_memory)
     state: NDArray[Any]  # (k, n_clearances) int8
-    is_after_jump: NDArray[np.bool_]  # (k,) whether something jumped, or began, since the row before
+    is_after_jump: NDArray[np.bool_]  # (k,) whether the run began or a quantity jumped since the row before
 
     def __len__(self) -> int:
         """Return the number k of states."""
@@ -54,14 +54,17 @@ class StepLog:
         self.compiled, self.observer = compiled, observer
         joints = len(compiled.source.clearances)
         self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
-        self.rows = np.zeros((ROWS, sum(self.widths)))
+        self.rows = np.zeros((N_ROWS_OF_BLOCK, sum(self.widths)))
 
     def register_rows(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, is_written=True), len(self.rows))
 
-    def pass_steps(self, run: Any) -> None:
-        """Pass a copy of the states that C's integrator has written since the last call, if any, to the observer."""
+    def flush_rows(self, run: Any) -> None:
+        """Pass copies of the states that C's integrator has written since the last call to the observer; clear them.
+
+        Without an observer, the states are discarded.
+        """
         count = int(self.compiled.lib.gudgeon_run_recorded(run))
         if count and self.observer:
             self.observer(self._convert_rows_to_steps(self.rows[:count].copy()))
@@ -97,11 +100,11 @@ class StepCollector:
         first = np.arange(k) < int(is_after_jump)
         repeated = np.tile(discrete_states, (k, 1)), np.tile(state, (k, 1))
         self.waiting.append(Steps(t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], *repeated, first))
-        if sum(map(len, self.waiting)) >= ROWS:
-            self.pass_steps()
+        if sum(map(len, self.waiting)) >= N_ROWS_OF_BLOCK:
+            self.flush_states()
 
-    def pass_steps(self) -> None:
-        """Pass the collected states to the observer and clear them; do nothing without an observer or states."""
+    def flush_states(self) -> None:
+        """Pass the collected states to the observer in one block and clear them; without an observer, discard them."""
         waiting, self.waiting = self.waiting, []
         if self.observer and waiting:
             columns = zip(*(vars(steps).values() for steps in waiting), strict=True)
@@ -115,23 +118,26 @@ class KinematicStepLog:
         self, compiled: CompiledModel, observer: StepCallback, allocate_struct: Callable[[], NDArray[Any]], first: Steps
     ) -> None:
         self.compiled, self.observer, self.last = compiled, observer, first
-        self.rows = np.zeros((ROWS, 1 + 2 * compiled.n))
+        self.rows = np.zeros((N_ROWS_OF_BLOCK, 1 + 2 * compiled.n))
         self.waiting: list[Array] = []  # rows of a chunk that an event may yet cut off
         self.works = allocate_struct()  # a separate struct of C for the works
         observer(first)
 
-    def register_rows(self, motion_struct: Any, rows: int = ROWS) -> None:
-        """Make C write the states of the motion into the first `rows` rows from now on; with 0, end that."""
+    def register_rows(self, motion_struct: Any, rows: int = N_ROWS_OF_BLOCK) -> None:
+        """Make C record the states of the motion in the first `rows` rows from now on; with 0, end the recording."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, is_written=True)
         lib.gudgeon_kinematic_record(motion_struct, where if rows else self.compiled.ffi.NULL, rows)
 
     def collect_steps(self, motion_struct: Any) -> None:
-        """Copy and store the states that C has written since the last call, for the next call of `pass_steps`."""
+        """Copy the states that C has written since the last call, and clear C's list.
+
+        They wait for the next call of `flush_states`, because an event may discard them.
+        """
         count = int(self.compiled.lib.gudgeon_kinematic_fetch_records(motion_struct))
         if count:
             self.waiting.append(self.rows[:count].copy())
 
-    def pass_steps(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
+    def flush_states(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
         """Pass the collected states to the observer in blocks, with parameter values p, and clear them.
 
         `end`: last state (t, q, q̇) if an event ends the motion; states after it are dropped. States that were passed
@@ -142,8 +148,8 @@ class KinematicStepLog:
         if end is not None:
             rows = np.concatenate([rows[rows[:, 0] < end[0]], np.hstack(end)[None]])
         rows = rows[rows[:, 0] > self.last.t[0]]
-        for first in range(0, len(rows), ROWS):
-            self._pass_states(rows[first : first + ROWS], p)
+        for first in range(0, len(rows), N_ROWS_OF_BLOCK):
+            self._pass_states(rows[first : first + N_ROWS_OF_BLOCK], p)
 
     def _pass_states(self, rows: Array, p: Array) -> None:
         """Compute the works of a block of states (k, 1 + 2n): t, q, q̇, and pass both to the observer as Steps.
@@ -167,7 +173,7 @@ class KinematicStepLog:
             pointer(work, is_written=True),
             pointer(done, "long *", True),
         )
-        if status:  # reported by the samples' works
+        if status:  # the works of the samples report the error
             work[int(done[0]) + 1 :] = np.nan
         none = np.zeros((count, 0))
         steps = Steps(t, q, v, work[1:], none, none.astype(np.int8), np.zeros(count, dtype=bool))

@@ -50,7 +50,8 @@ from gudgeon.integrators.trajectory import (
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.deferred_fields import make_with_deferred_fields
 
-FIRST_BLOCK, BLOCK = MAX_LISTED, 16 * MAX_LISTED  # contacts that are stored in the first block, and in later ones
+# contacts that are stored in the first block, and in later ones
+FIRST_BLOCK_CONTACTS, BLOCK_CONTACTS = MAX_LISTED, 16 * MAX_LISTED
 
 
 def _convert_contacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
@@ -70,10 +71,9 @@ class Contacts:
         self.of_thread: dict[int, _ThreadContacts] = {}  # by the thread's identity
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
-        """Fetch and clear the contacts that C's integrator `run` lists for run i; with `is_over` also those still
-        closed.
+        """Fetch and clear C's list of ended contacts of run i; with `is_over` also the contacts that are still closed.
 
-        They are stored in lists of the calling thread.
+        `run`: C's integrator. The contacts are stored in lists of the calling thread.
         """
         fetched = self.of_thread.get(get_ident())
         if fetched is None:
@@ -84,7 +84,7 @@ class Contacts:
     def join_contacts(self, n_runs: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
         """Return the contacts (IMPACT_DTYPE) of all n runs sorted by run and onset, and the first index of each run.
 
-        The indices have the shape (n + 1,). Call it once, after all threads have ended: the lists are released.
+        The indices have the shape (n + 1,). Called once, after all threads have ended: the lists are cleared.
         """
         if not self.all:
             return np.zeros(0, IMPACT_DTYPE), np.zeros(n_runs + 1, np.int_)
@@ -98,7 +98,8 @@ class Contacts:
         numbers = np.concatenate([np.zeros((0, N_IMPACT_COLUMNS)), *(numbers for numbers, _ in blocks)])
         joints = np.concatenate([np.zeros(0, np.intc), *(joints for _, joints in blocks)])
         self.all.clear()
-        # complex numbers are ordered by their real parts first; the rows nearly are, which a lexsort does not use
+        # sort by run, then onset: complex numbers are ordered by real parts first; faster than lexsort here, since the
+        # rows are nearly sorted
         row = row[np.argsort(whose + 1j * numbers[row, IMPACT_t_on], kind="stable")]
         return _convert_contacts(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n_runs + 1))
 
@@ -109,16 +110,16 @@ class _ThreadContacts:
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.runs, self.counts = compiled, list[int](), list[int]()
         self.full: list[tuple[NDArray[Any], NDArray[Any]]] = []
-        self._allocate_block(FIRST_BLOCK)
+        self._allocate_block(FIRST_BLOCK_CONTACTS)
 
     def _allocate_block(self, capacity: int) -> None:
-        """Allocate an empty block for so many contacts, with C pointers to it."""
+        """Allocate an empty block for `capacity` contacts, with C pointers to it."""
         self.numbers, self.joints, self.n = np.empty((capacity, N_IMPACT_COLUMNS)), np.empty(capacity, np.intc), 0
         pointer = self.compiled.pointer
         self.pointers = pointer(self.numbers, is_written=True), pointer(self.joints, "int *", is_written=True)
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
-        """Fetch the contacts of run i from C into blocks, allocated as needed; with `is_over` also closed ones."""
+        """Fetch the ended contacts of run i from C into blocks, allocated as needed; with `is_over` all contacts."""
         self.runs.append(i)
         self.counts.append(0)
         while True:
@@ -130,7 +131,7 @@ class _ThreadContacts:
             if count < n_free:
                 return
             self.full = self.list_blocks()
-            self._allocate_block(BLOCK)
+            self._allocate_block(BLOCK_CONTACTS)
 
     def list_blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
         """Return all blocks, the last cut to its length: values (n, N_IMPACT_COLUMNS) and joint indices (n,)."""
@@ -141,7 +142,7 @@ Samples: TypeAlias = tuple[Array, Array, Array, NDArray[Any]]
 
 
 class _PythonLists(NamedTuple):
-    """Hold the lists of a run that Python drove."""
+    """Hold the lists of a run with a time loop in Python."""
 
     impacts: NDArray[Any]
     events: NDArray[Any]
@@ -149,10 +150,10 @@ class _PythonLists(NamedTuple):
 
 
 class StoredRuns:
-    """Store arrays by run, and samples by place; values that were not reached are NaN."""
+    """Store the results of runs in arrays with a row per run, or per block of samples; unreached values are NaN."""
 
     struct: Any  # pointers to the arrays, for C
-    is_reused = False  # the arrays of a single run are those of the next one, too
+    is_reused = False  # whether the arrays of a single run are reused by the next one
 
     def __init__(
         self,
@@ -207,15 +208,16 @@ class StoredRuns:
         """
         if not self.python_lists:
             if not self.fetched.all:
-                return  # as they were made
+                return  # they are empty already
             self.contacts, self.first_contact_indices = self.fetched.join_contacts(self.n)
             return
         each = [self.python_lists[i].impacts if i in self.python_lists else self.contacts for i in range(self.n)]
         self.contacts, self.first_contact_indices = join_contacts(each), np.cumsum([0, *map(len, each)])
 
     def store_trajectory(self, i: int, trajectory: Trajectory) -> None:
-        """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays, and record its error
-        if any.
+        """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays.
+
+        The run is marked as over, and an error is recorded in `failures`.
         """
         x, k, N, n = self.arrays, int(self.arrays["sample_block"][i]), len(trajectory.t), self.compiled.n
         for columns, values in (
@@ -241,7 +243,7 @@ class StoredRuns:
             self.failures[i] = trajectory.stopped
 
     def fetch_contacts_and_events(self, i: int, run: Any, is_over: bool) -> None:
-        """Fetch, store and clear C's lists of contacts and events of run i; with `is_over` also closed contacts."""
+        """Fetch, store and clear C's lists of ended contacts and of events of run i; with `is_over` all contacts."""
         if self.compiled.source.clearances:
             self.fetched.fetch_contacts(i, run, is_over)
         if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
@@ -262,7 +264,7 @@ class StoredRuns:
         return self.contacts[self.first_contact_indices[i] : self.first_contact_indices[i + 1]].copy()
 
     def list_contacts(self) -> tuple[NDArray[Any], ...]:
-        """Return the contacts of each run, as views of one array."""
+        """Return the contacts (IMPACT_DTYPE) of each run, as views of one array; called after all runs have ended."""
         return tuple(self.contacts[a:b] for a, b in pairwise(self.first_contact_indices.tolist()))
 
     def list_events(self) -> tuple[NDArray[Any], ...]:
@@ -275,7 +277,7 @@ class StoredRuns:
     def _get_events(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
         """Return the user events of run i by time, and the times from which events are not numbers; both may be empty.
 
-        For runs in C both contain the states there (event_dtype), and events after the last sample are dropped.
+        For runs in C both contain the states there (build_event_dtype), and events after the last sample are dropped.
         """
         if i in self.python_lists:
             return self.python_lists[i].events, self.python_lists[i].no_number
@@ -298,15 +300,14 @@ class StoredRuns:
         return convert_counts(self.arrays["counts"][i], self.arrays["residuals"][i])
 
     def get_samples(self, i: int) -> Samples:
-        """Return the times (s) of the reached samples of run i, and views of its states, discrete states and contact
-        codes.
+        """Return the reached sample times (k,) of run i in s, and views of states, discrete states and contact codes.
 
         States are (k, 2n + 3): q, q̇ and works.
         """
         return self._get_samples(i, self.arrays)
 
     def _get_samples(self, i: int, arrays: dict[str, NDArray[Any]]) -> Samples:
-        """Return what `get_samples` does, as views of the samples in `arrays`."""
+        """Return the samples of run i as `get_samples`, as views of `arrays`, which may be a copy of the arrays."""
         compiled, k, t = self.compiled, self.arrays["sample_block"].item(i), self.get_reached_times(i)
         N, joints = len(t), len(compiled.source.clearances)
         memory, state = arrays["latched"][k, :N, : compiled.n_memory], arrays["state"][k, :N, :joints]
@@ -318,7 +319,7 @@ class StoredRuns:
         return None if a is None else a[self.arrays["sample_block"][i], : self.arrays["done"][i]]
 
     def get_reached_times(self, i: int) -> Array:
-        """Return the times (s) of the samples of run i that were reached; where it ended early, the last is its end."""
+        """Return a copy of the sample times (s) that run i reached; if it ended early, the last one is its end."""
         done = self.arrays["done"].item(i)
         t = self.times.get_times(i)[:done].copy()
         if done and self.arrays["status"].item(i) in (ENDED, STOPPED, STALLED):
@@ -326,9 +327,9 @@ class StoredRuns:
         return t
 
     def build_trajectory(self, i: int) -> Trajectory:
-        """Return run i as a Trajectory: copies of its rows, or views if it is the only run.
+        """Return run i as a Trajectory: copies of its rows, or views if it is the only run without reused arrays.
 
-        An error of an interrupted run is left out.
+        `stopped` of an interrupted run is None.
         """
         x, n, joints, driven = (
             self.arrays,
@@ -376,9 +377,10 @@ class StoredRuns:
 
 
 class _TrajectoryParts:
-    """Build the fields of run i's Trajectory that few callers read, from `arrays` that do not change later.
+    """Build fields of run i's Trajectory at their first access, from `arrays` that do not change later.
 
-    `events`: those found, and those that are not numbers; None: there are none. `envelope`: rows as C writes them.
+    `events`: user events, and the times from which events are not numbers; None: there are none. `envelope`: rows as C
+    writes them.
     """
 
     fields: tuple[str, ...] = ("events", "event_states", "undefined_events", "trace", "audit")

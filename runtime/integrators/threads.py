@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
     from gudgeon.integrators.trajectory import Progress
 
-PORTION = 16  # largest number of runs handed to a thread at once
+MAX_PORTION_RUNS = 16  # largest number of runs handed to a thread at once
 POLL_INTERVAL_S = 0.05  # s between two checks of the waiting thread
 
 
 def count_available_threads() -> int:
-    """Return the number of cores that this process may use."""
+    """Return the number of CPU cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -51,12 +51,12 @@ def wait_for_futures(
 def integrate_runs_in_threads(
     runs: Runs, progress: Progress | None, indices: range | list[int], ctrl_c: DelayedCtrlC
 ) -> None:
-    """Integrate the runs with these indices to their ends in threads, which take them in portions from a queue.
+    """Integrate the runs with these indices to their ends in threads, by portions from a shared queue.
 
     `progress` is called with the fraction of finished runs. Ctrl-C or an error ends all runs where they are, and is
     passed on. `progress` None: nothing is reported.
     """
-    portion = max(1, min(PORTION, len(indices) // (8 * runs.threads)))
+    portion = max(1, min(MAX_PORTION_RUNS, len(indices) // (8 * runs.threads)))
     portions = deque(indices[k : k + portion] for k in range(0, len(indices), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:

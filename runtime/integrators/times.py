@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from gudgeon.model.compiled import Array
 
-SAME = 1e-9  # relative difference up to which the last step counts as equal: times are sums of rounded numbers
+LAST_STEP_TOL = 1e-9  # relative difference up to which the last step counts as equal: times are sums of rounded numbers
 
 
 @dataclass(frozen=True, eq=False)
 class Times:
-    """Hold output times `t`: (N,) if all runs share them, else (n, N) with NaN after a run's last time."""
+    """Hold output times `t`: (N,) if they are common to all runs, else (n, N) with NaN after a run's last time."""
 
     t: Array  # s
     count: NDArray[np.int_]  # (n,) number of times of each run
@@ -24,10 +24,9 @@ class Times:
 
     @staticmethod
     def from_runs(times_of_runs: Mapping[int, tuple[Array, bool]], n_runs: int) -> Times:
-        """Build the Times of n runs from the times of those that begin, by index, each with whether its start was
-        requested.
+        """Build the Times of n runs from sample times (s) by index, each with whether the start is requested.
 
-        At least one run begins; the others get none. Equal times are stored once.
+        At least one run must have times; runs that are absent get none. Equal times of all runs are stored once.
         """
         first, all_requested = next(iter(times_of_runs.values()))
         skipped = np.array([int(not times_of_runs.get(i, (first, all_requested))[1]) for i in range(n_runs)])
@@ -41,7 +40,7 @@ class Times:
 
     @property
     def max_count(self) -> int:
-        """Return N, the number of rows of a run in the arrays of a batch."""
+        """Return N, the largest number of times of a run: the number of rows of a run in the arrays of a batch."""
         return self.t.shape[-1]
 
     @property
@@ -51,7 +50,7 @@ class Times:
 
     @property
     def stride(self) -> int:
-        """Return the stride in memory, in numbers, between the times of two runs; 0 if all runs share them."""
+        """Return the stride, in numbers, between the times of successive runs in `t`; 0 if all runs have the same."""
         return self.max_count if self.t.ndim == 2 else 0
 
     def get_times(self, i: int) -> Array:
@@ -81,16 +80,16 @@ class Times:
         """Return the samples of all runs, (n, N, …), at the requested times, (n, N', …).
 
         Starts that were not requested are left out. Runs with fewer times are filled with NaN, arrays of integers with
-        0. A view is returned if all runs are alike.
+        0. A view is returned if all runs, or none, requested their start.
         """
         if (self.n_skipped == self.n_skipped[:1]).all():
             return values[:, self.n_skipped[:1].sum() :]
-        most = int((self.count - self.n_skipped).max())
+        max_count = int((self.count - self.n_skipped).max())
         selected = np.full(
-            (len(values), most, *values.shape[2:]), np.nan if values.dtype.kind == "f" else 0, values.dtype
+            (len(values), max_count, *values.shape[2:]), np.nan if values.dtype.kind == "f" else 0, values.dtype
         )
         for i, skip in enumerate(self.n_skipped.tolist()):
-            row = values[i, skip : skip + most]
+            row = values[i, skip : skip + max_count]
             selected[i, : len(row)] = row
         return selected
 
@@ -107,4 +106,4 @@ def compute_last_step(duration: float, step: float) -> float:
     """
     total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
     rest = duration - (total - 1) * step
-    return step if abs(rest - step) < SAME * step else rest
+    return step if abs(rest - step) < LAST_STEP_TOL * step else rest

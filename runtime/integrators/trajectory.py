@@ -38,15 +38,15 @@ Progress: TypeAlias = Callable[[float, str], None]  # called with the fraction d
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, time in s
 TRACE_ROWS = 4096  # largest number of rows of an envelope; it is even
 TRACED = {
-    "F_low": ("N", "least force since the row before"),
-    "t_F_low": ("s", "its time"),
-    "F_high": ("N", "largest force since the row before"),
-    "t_F_high": ("s", "its time"),
-    "ex_out": ("m", "where the journal was furthest out since the row before, x"),
-    "ey_out": ("m", "the same, y"),
-    "t_out": ("s", "time of that"),
-    "ex": ("m", "where the journal is, x"),
-    "ey": ("m", "the same, y"),
+    "F_low": ("N", "smallest force since the previous row"),
+    "t_F_low": ("s", "time of F_low"),
+    "F_high": ("N", "largest force since the previous row"),
+    "t_F_high": ("s", "time of F_high"),
+    "ex_out": ("m", "eccentricity of largest magnitude since the previous row, x"),
+    "ey_out": ("m", "eccentricity of largest magnitude since the previous row, y"),
+    "t_out": ("s", "time of ex_out and ey_out"),
+    "ex": ("m", "eccentricity at the row's end, x"),
+    "ey": ("m", "eccentricity at the row's end, y"),
 }
 TRACE_COLUMNS = tuple(TRACED)
 _TRACE_POSITIONS = np.array([ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS])  # in a row that C writes
@@ -61,7 +61,7 @@ def build_event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]
 
 
 def remove_event_states(events_with_states: NDArray[Any]) -> NDArray[Any]:
-    """Return events with states as events without them (EVENT_DTYPE): number and time."""
+    """Return a copy of events without their states (EVENT_DTYPE): index and time."""
     events = np.zeros(len(events_with_states), dtype=EVENT_DTYPE)
     if not len(events):
         return events
@@ -70,12 +70,12 @@ def remove_event_states(events_with_states: NDArray[Any]) -> NDArray[Any]:
 
 
 def make_empty_events() -> NDArray[Any]:
-    """Return an empty list of events."""
+    """Return an empty array of events (EVENT_DTYPE)."""
     return np.zeros(0, dtype=EVENT_DTYPE)
 
 
 def join_contacts(lists: Iterable[NDArray[Any]]) -> NDArray[Any]:
-    """Join lists of contacts (IMPACT_DTYPE) to one array; faster than numpy, which compares all fields."""
+    """Return arrays of contacts (IMPACT_DTYPE) concatenated, through their bytes: faster than numpy.concatenate."""
     return np.frombuffer(bytearray().join(lists), IMPACT_DTYPE)  # type: ignore[arg-type]
 
 
@@ -101,7 +101,7 @@ class Problem:
     audit: int = 1  # level of the audit (contract/audit.py)
     resumed_state: State | None = None  # state that the run resumes from
     observer: StepCallback | None = None  # observer of all steps
-    # (2, n) by which q and v of the first sample may surely differ from the start; None: not known
+    # (2, n) differences of q and v of the first sample from the start up to which its audit passes; None: not known
     allowed_start_error: Array | None = None
     poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (cancellation.py)
 
@@ -125,16 +125,13 @@ class Counts(NamedTuple):
     omega_max: float = float("nan")  # rad/s, of the integrated angles
 
 
-# position of each field of Counts in C's counts, followed by its residuals
-# names of the counts that batches keep and files store; the largest speeds serve the audit of a single run alone
+# names of the counts that batches and files store; the largest speeds are used by the audit of single runs only
 STORED_COUNTS = tuple(name for name in Counts._fields if name not in ("speed_max", "omega_max"))
 _select_counts = itemgetter(*map((*COUNT_NAMES, *RESIDUAL_NAMES).index, Counts._fields))
 
 
 def convert_counts(counts: NDArray[Any], residual_values: Array) -> Counts:
-    """Convert the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes to Counts; infinite residuals
-    are NaN.
-    """
+    """Convert C's arrays (N_COUNTS,) and (N_RESIDUALS,) of a run to Counts; infinite residuals become NaN."""
     values = counts.tolist()
     values += [x if -math.inf < x < math.inf else math.nan for x in residual_values.tolist()]
     return Counts._make(_select_counts(values))
@@ -163,7 +160,7 @@ class Trajectory:
     t: Array
     q: Array  # (N, n)
     v: Array
-    a: Array | None  # None: the method does not compute them
+    a: Array | None  # (N, n); None: the method does not compute them
     memory: Array  # (N, n_clearances + n_frictions)
     state: NDArray[Any]  # (N, n_clearances) int8
     work: Array  # (N, 3) J: drives, applied forces, joints with play
@@ -174,8 +171,8 @@ class Trajectory:
     stopped: SolverError | None = None
     seconds: float = 0.0  # spent in the time loop
     events: NDArray[Any] = field(default_factory=make_empty_events)  # EVENT_DTYPE, by time
-    event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
-    trace: Envelope | None = None  # forces and paths from the steps; None: the method keeps none
+    event_states: NDArray[Any] | None = None  # events with states (build_event_dtype); None: the method stores none
+    trace: Envelope | None = None  # forces and paths from the steps; None: the method stores none
     audit: tuple[Finding, ...] = ()  # largest value of each check
     # EVENT_DTYPE: times from which on an event is not a number
     undefined_events: NDArray[Any] = field(default_factory=make_empty_events)
@@ -209,16 +206,15 @@ def compute_time_resolution(t: Array) -> float:
 
 
 def make_empty_event_states(compiled: CompiledModel) -> NDArray[Any]:
-    """Return an empty list of events with states."""
+    """Return an empty array of events with states (build_event_dtype)."""
     return np.zeros(0, dtype=build_event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
-    """Fetch and clear the list of user events in C's integrator `run`; return them (event_dtype), without those at its
-    start.
+    """Fetch and clear C's list of user events of a run, and return them with states (build_event_dtype).
 
-    `times`: output times of the run. An event number beyond the scene's events means that this event was not a number
-    from that time on.
+    Events at the start are left out. `run`: C's integrator; `times`: output times of the run. An index k beyond the
+    scene's n events means that event k − n is not a number from that time on.
     """
     joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
     t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
@@ -246,7 +242,8 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
 def split_undefined_events(compiled: CompiledModel, events: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Split events as C lists them into events sorted by time, and those that are undefined from a time on.
 
-    Both have the type of `events`; the event numbers of the second are reduced to the scene's.
+    C lists the latter with indices from the number of events on, which is subtracted here. Both have the type of
+    `events`.
     """
     ordered = events[np.argsort(events["t"], kind="stable")]
     number = ordered["event"] < len(compiled.source.events)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def build_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
-    """Return the compiler's command line for each object file of a scene's own code, by file name.
+    """Return the compiler's command line for each object file of a scene's code without the engine, by file name.
 
     A scene is compiled in one part, or in the parts of `source.units`. `quick`: without optimization.
     """
@@ -47,8 +47,8 @@ def _build_unit_command(unit: int, portable: bool, quick: bool) -> tuple[str, tu
 class BackgroundCompilation:
     """Compile parts of a library in the background; a context at whose end all compilers are stopped.
 
-    Errors are ignored here; they appear when the library is made. quick: compile without optimization
-    (loading/optimized_library.py).
+    Errors are ignored here: the library is then built without these parts, which raises them. quick: compile without
+    optimization (loading/optimized_library.py).
     """
 
     def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:
@@ -61,10 +61,10 @@ class BackgroundCompilation:
         return self
 
     def start_unit_compilation(self, unit: int, texts: Mapping[str, str]) -> None:
-        """Start to compile a compilation unit to an object file in the background, from the texts written so far.
+        """Start to compile a compilation unit to an object file in the background, from the texts generated so far.
 
         unit: ENGINE_PART (0) for the engine, or the number of a part of the scene (-DPART of MAIN). texts: contents by
-        file name. Errors are ignored: the unit is then compiled when the library is made.
+        file name. Errors are ignored: the unit is then compiled when the library is built.
         """
         try:
             if unit == ENGINE_PART:
@@ -83,9 +83,7 @@ class BackgroundCompilation:
             self.start_unit_compilation(ENGINE_PART, {HEADER: header})
 
     def list_shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
-        """Return the object files that a scene shares with others: that of the engine; [] for a library without it
-        (lanes).
-        """
+        """Return the object files that a scene shares with others: that of the engine; [] for a library of lanes."""
         return [] if source.cdef else [self._find_engine_object(source.files[HEADER], quick)]
 
     def _find_engine_object(self, header: str, quick: bool) -> SharedObject:
@@ -103,7 +101,7 @@ class BackgroundCompilation:
         """
         if self.is_compiling(shared_object.name, shared_object.command_line, shared_object.texts):
             return
-        if shared_object.name in self._compilations:  # it was foreseen wrongly
+        if shared_object.name in self._compilations:  # it was prefetched for another header
             self._programs.stop(self._compilations.pop(shared_object.name)[2])
             shutil.rmtree(self._get_folder(shared_object.name))
         if not shared_object.is_cached(self._portable, self._cache or get_default_cache()):
@@ -128,10 +126,10 @@ class BackgroundCompilation:
         The parent folder is created at the first call, and removed at the latest with this object.
         """
         if self._folder is None:
-            with DelayedCtrlC() as ctrl_c:  # so that every folder made is known
+            with DelayedCtrlC() as ctrl_c:  # so that every created folder is recorded and removed
                 temporary = TemporaryFolder()
                 self._folder = temporary.path
-                self._clear = finalize(self, temporary.remove_folder)  # at the latest
+                self._clear = finalize(self, temporary.remove_folder)  # removed at the latest with this object
             ctrl_c.raise_delayed()
         return self._folder / name.partition("_")[0]
 
@@ -163,8 +161,8 @@ class BackgroundCompilation:
         return compiled_line == command_line and all(texts.get(file) == text for file, text in compiled_texts.items())
 
     def __exit__(self, *exception_info: object) -> None:
-        """Stop all compilers and remove the temporary folder, also if Ctrl-C comes."""
-        with DelayedCtrlC() as ctrl_c:  # a second one leaves nothing either
+        """Stop all compilers and remove the temporary folder, also after Ctrl-C."""
+        with DelayedCtrlC() as ctrl_c:  # a second Ctrl-C does not interrupt the removal
             self._programs.__exit__(*exception_info)
             if self._folder is not None:
                 self._clear()
@@ -201,9 +199,9 @@ class SharedObject:
         """
 
         def compile_object(folder: Path) -> None:
-            """Compile the object file in a folder, or take it from the background compilation. Raise BuildError.
+            """Compile the object file in a folder, or fetch it from the background compilation. Raise BuildError.
 
-            The written texts are removed again.
+            The written texts are removed at the end.
             """
             if background.fetch_object(folder / self.name, self.command_line, self.texts):
                 return

@@ -1,6 +1,6 @@
-"""Build a library from C text: a compiler makes it, the cache stores it, library.py opens it.
+"""Build a shared library from C text: compile and link it, store it in the cache, and open it with library.py.
 
-If the cache has it, only `_cffi_backend` is imported: neither cffi's parser nor subprocess.
+If the cache has the library, only `_cffi_backend` is imported: neither cffi's parser nor subprocess.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
 from gudgeon.loading.background_compilation import BackgroundCompilation, build_command_lines
-from gudgeon.loading.cache import Cache, Make, compute_digest, get_default_cache, get_private_cache, warn_once
+from gudgeon.loading.cache import Cache, WriteFiles, compute_digest, get_default_cache, get_private_cache, warn_once
 from gudgeon.loading.compiler import start_compiler, wait_for_compiler
 from gudgeon.loading.engine import compute_engine_digest, list_scene_texts
 from gudgeon.loading.library import Library, open_bundled_library, open_library
-from gudgeon.loading.optimized_library import KIND, SOURCE, OptimizedLibrary, may_compile_in_background
+from gudgeon.loading.optimized_library import QUICK_KIND, SOURCE, OptimizedLibrary, may_compile_in_background
 from gudgeon.waiting.cancellation import report_work
 from gudgeon.waiting.programs import Programs
 
 LIBRARY = "kernels.so"  # file name of the library in an entry of the cache
-PRESENT = "gudgeon_prepare"  # a function that every scene's library has
+REQUIRED_FUNCTION = "gudgeon_prepare"  # a function that every scene's library has
 _libraries: dict[str, Library] = {}
 _lock = Lock()
 
@@ -85,17 +85,17 @@ def compile_kernels(
 def _compile_quick_library(
     source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
 ) -> Library | None:
-    """Build an unoptimized library while another process makes the optimized one with the cache key `key`; return it.
+    """Build an unoptimized library, start another process that builds the optimized one (`key`), and return the first.
 
-    Return None if the optimized one must be awaited: the cache has an unoptimized one, so the other process is at work
-    or failed.
+    Return None if the optimized library must be awaited. That is so if no process may be started, or if the cache has
+    an unoptimized library already: the other process is then running or has failed.
     """
     if not may_compile_in_background(cache) or cache.has_folder("libraries", key):
         return None
     command = compiler.find_compiler()
     flags = (*compiler.build_flags(portable, command, quick=True), *compiler.build_link_flags())
     library_key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
-    if cache.has_folder(KIND, library_key):
+    if cache.has_folder(QUICK_KIND, library_key):
         return None
 
     def build_quick_library(folder: Path) -> None:
@@ -105,7 +105,7 @@ def _compile_quick_library(
             (folder / name).unlink()
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    entry = cache.fetch(KIND, library_key, build_quick_library)
+    entry = cache.fetch(QUICK_KIND, library_key, build_quick_library)
     if not entry.is_relative_to(cache.root):
         return None
     optimized_library = OptimizedLibrary(
@@ -113,7 +113,7 @@ def _compile_quick_library(
     )
     try:
         library = _open_entry(entry, source.cdef)
-    except ImportError:  # reported for the optimized one
+    except ImportError:  # the caller reports it for the optimized library
         return None
     if not optimized_library.start_process(entry, portable):
         return None
@@ -135,14 +135,14 @@ def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
 def compute_library_key(
     source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], compiler_description: str, portable: bool
 ) -> str:
-    """Return the cache key: a digest of everything that decides the library's bytes or whether it runs here."""
+    """Return the library's cache key: a digest of texts, flags and compiler, and of the CPU unless `portable`."""
     cpu, texts = "" if portable else compiler.describe_cpu(), list_scene_texts(source)
     key_parts = [
         source.main,
         source.cdef,
         *command,
         *flags,
-        *(flag for more in compiler.MORE.values() for flag in more),
+        *(flag for more in compiler.UNIT_FLAGS.values() for flag in more),
     ]
     return compute_digest(["library/6", *key_parts, compiler_description, cpu, compute_engine_digest(), *texts])
 
@@ -150,23 +150,24 @@ def compute_library_key(
 def _open_entry(entry: Path, cdef: str) -> Library:
     """Open the library in the folder of a cache entry.
 
-    Raise ImportError if it cannot be loaded or lacks its functions. `cdef`: declarations, or "" for a scene's.
+    Raise ImportError if it cannot be loaded, or if a scene's library lacks REQUIRED_FUNCTION. `cdef`: declarations, ""
+    for those of the engine.
     """
     library = open_library(entry / LIBRARY, cdef)
-    if not cdef and not hasattr(library.lib, PRESENT):
-        raise ImportError(f"{entry / LIBRARY} has no function {PRESENT}")
+    if not cdef and not hasattr(library.lib, REQUIRED_FUNCTION):
+        raise ImportError(f"{entry / LIBRARY} has no function {REQUIRED_FUNCTION}")
     return library
 
 
 def _rebuild_or_copy_library(
-    key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError
+    key: str, entry: Path, cdef: str, cache: Cache, build: WriteFiles, error: ImportError
 ) -> Library:
-    """Build a library that could not be loaded anew, or copy it to a temporary folder with a warning; return it opened.
+    """Build a library that could not be loaded again, or copy it to a temporary folder with a warning; return it open.
 
     `error`: the error of the first attempt. Raises BuildError if the library cannot be loaded after that either.
     """
     private, root = get_private_cache(), entry.parents[1]
-    if not _is_noexec(root):  # what the compiler wrote may be broken
+    if not _is_noexec(root):  # the library may be damaged
         try:
             entry = cache.fetch("libraries", key, build, renew=True)
             return _open_entry(entry, cdef)
@@ -179,13 +180,13 @@ def _rebuild_or_copy_library(
             error = again
         else:
             why = "is mounted noexec" if _is_noexec(root) else f"cannot be loaded from ({error})"
-            copied = f"what is compiled is copied to {private.root} at each start"
+            copied = f"libraries are copied to {private.root} at each start"
             do = "Set GUDGEON_CACHE to a folder whose programs may be run"
             warn_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
             return library
     command = " ".join(compiler.find_compiler())
-    message = f"the compiler {command} ended without an error, and made a library that cannot be loaded: {error}"
-    hint = "set CC to a compiler that makes programs for this machine, as CC=gcc"
+    message = f"the compiler {command} ended without an error, but its library cannot be loaded: {error}"
+    hint = "set CC to a compiler for this machine, such as CC=gcc"
     if _is_noexec(private.root):
         message = f"the compiled library cannot be loaded: {error}"
         hint = f"{private.root} is mounted noexec: set GUDGEON_CACHE or TMPDIR to a folder that is not"
@@ -245,7 +246,7 @@ def _build_library(
             if not background.fetch_object(folder / name, command_lines[name], source.files):
                 compilations.append(
                     (start_compiler(programs, command_lines[name], folder), name)
-                )  # here it says what is wrong
+                )  # compiled again here, so that its error is reported
         failed = [
             finished
             for process, name in compilations

@@ -1,12 +1,11 @@
-"""Store compiled libraries and derived sources in a cache folder: entries are complete or absent, and made only
-once.
+"""Store compiled libraries and derived sources in a cache on disk: entries are complete or absent, and created once.
 
-An entry is a folder `<kind>/<key>/` with a list of checksums. It is made in a temporary folder under a lock, and moved
-into place by one rename, so that a killed process leaves no entry that a later one trusts. Reading takes no lock and
-writes nothing. If the folder cannot be written (read-only, full, no locks), a private temporary one replaces it for the
-rest of the process, with a warning.
+An entry is a folder `<kind>/<key>/` with a list of checksums. It is written in a temporary folder under a lock, and
+moved into place by one rename (atomically), so that a killed process leaves no incomplete entry. Reading needs no lock
+and writes nothing. If the folder cannot be written (read-only, full, no locks), a private temporary one replaces it for
+the rest of the process, with a warning.
 
-What is in the cache is executed. A folder that another user may write is therefore not used, nor an entry that another
+Files in the cache are executed. A folder that another user may write is therefore not used, nor an entry that another
 user may have written (trust.py). The list of checksums contains kind and key, so that no entry can replace another.
 """
 
@@ -26,13 +25,13 @@ from gudgeon.errors import FILE_SIZE_LIMIT_HINT, BadValueError, CacheError
 from gudgeon.files.trust import UntrustedPathError, check_trusted_folder, check_trusted_path, read_trusted_file
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
-LIST = "checksums"
-END = "whole"  # begins the last line of the list; without it the list is incomplete
-# names of temporary folders made by `_make_entry`: the key, and mkdtemp's letters
+CHECKSUM_FILE = "checksums"
+LAST_LINE_PREFIX = "whole"  # begins the last line of the list; without it the list is incomplete
+# names of temporary folders of `_make_entry`: the key, and the letters of mkdtemp
 TEMPORARY_NAME = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")
 LOCK_SECONDS = 300.0  # longer than any compilation; a lock held longer means a process that hangs
 
-Make = Callable[[Path], None]  # writes the files of an entry into the empty folder that it is given
+WriteFiles = Callable[[Path], None]  # function that writes the files of an entry into an empty folder
 
 
 def compute_digest(parts: Iterable[str | bytes]) -> str:
@@ -52,11 +51,11 @@ class Cache:
         self.root = Path(root)
         self.private = private  # whether it is removed with the process, so that errors in it are final
 
-    def fetch(self, kind: str, key: str, write_files: Make, *, renew: bool = False) -> Path:
+    def fetch(self, kind: str, key: str, write_files: WriteFiles, *, renew: bool = False) -> Path:
         """Return the folder of an entry; `write_files` writes it if it is absent or damaged, or if `renew` is set.
 
         Errors of `write_files` are passed on, except OSError, which counts as a fault of the folder: the entry is then
-        made in a private folder. Raises CacheError if even that fails.
+        created in a private temporary cache, with a warning. Raises CacheError if even that fails.
         """
         try:
             self._check_trusted(kind)
@@ -81,8 +80,8 @@ class Cache:
             return False
 
     def has_folder(self, kind: str, key: str) -> bool:
-        """Return whether an entry exists, complete or not; this is faster than `has`."""
-        return os.path.exists(self.root / kind / key)  # False too where the system has no such long name
+        """Return whether the folder of an entry exists, complete or not; this is faster than `has_entry`."""
+        return os.path.exists(self.root / kind / key)  # False too for names that are too long for the system
 
     def _check_trusted(self, *folders: str) -> None:
         """Raise UntrustedPathError if another user may have written the cache or its subfolders; folders may be absent.
@@ -104,34 +103,34 @@ class Cache:
         what = f"the cache folder {self.root} cannot be used ({error})"
         do = "Set GUDGEON_CACHE to a folder that can be written."
         if isinstance(error, UntrustedPathError):
-            what = f"the cache folder {self.root} is not used: {error}, and code in it would run as you"
-            do = "Set GUDGEON_CACHE to a folder that is yours alone."
+            what = f"the cache folder {self.root} is not used: {error}, and code in it would run with your rights"
+            do = "Set GUDGEON_CACHE to a folder that only you can write."
             if self.root.is_dir():
-                do = f"Make it yours alone (chown; chmod -R go-w {self.root}) or set GUDGEON_CACHE to a folder that is."
-        warn_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
+                do = f"Let only you write it (chown; chmod -R go-w {self.root}), or set GUDGEON_CACHE to such a folder."
+        warn_once(f"{what}; libraries that this process compiles are not stored. {do}", f"{self.root}")
 
-    def _make_entry(self, entry: Path, write_files: Make, renew: bool) -> Path:
-        """Make an entry under a lock in a temporary folder, and move it into place; return its path.
+    def _make_entry(self, entry: Path, write_files: WriteFiles, renew: bool) -> Path:
+        """Create an entry under a lock in a temporary folder, and move it into place; return its path.
 
-        An entry that another process made meanwhile is used, unless `renew` is set. A damaged one is replaced.
+        An entry that another process created in the meantime is used, unless `renew` is set. A damaged one is replaced.
         Temporary folders are removed in any case.
         """
         import tempfile
 
-        from filelock import FileLock  # 40 ms: only when something has to be made
+        from filelock import FileLock  # takes 40 ms: imported only to create an entry
 
         temporary_root = self.root / "aside"
         for folder in (self.root, temporary_root, self.root / "locks", entry.parent):
-            _make_own_folder(folder)
-        self._check_trusted("aside", "locks", entry.parent.name)  # another process may have made them first
+            _make_private_folder(folder)
+        self._check_trusted("aside", "locks", entry.parent.name)  # another process may have created them
         with FileLock(self._get_lock_path(entry.name), timeout=LOCK_SECONDS):
-            if not renew and _is_usable(entry):  # another process made it while this one waited
+            if not renew and _is_usable(entry):  # another process created it while this one waited
                 return entry
             temporary_folders: list[Path] = []
             try:
                 with (
                     DelayedCtrlC() as ctrl_c
-                ):  # not between a folder and the note of it, nor where a lock's end swallows it
+                ):  # Ctrl-C must not come between the creation of a folder and its record, nor be lost with the lock
                     self._remove_abandoned_folders(temporary_root, entry.name)
                     work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=temporary_root))
                     old = work.with_name(work.name + ".old")
@@ -139,7 +138,7 @@ class Cache:
                 ctrl_c.raise_delayed()
                 write_files(work)
                 _write_checksums(work, entry)
-                if os.path.lexists(entry):  # a damaged one: a rename cannot replace a folder that has files
+                if os.path.lexists(entry):  # a damaged entry: a rename cannot replace a folder with files
                     os.replace(entry, old)
                 os.replace(work, entry)
             finally:
@@ -160,7 +159,7 @@ class Cache:
 
         for folder in temporary_root.iterdir():
             if not TEMPORARY_NAME.fullmatch(folder.name) or not _is_own_folder(folder):
-                continue  # nothing that was made here
+                continue  # not a folder of this cache
             key = folder.name.partition(".")[0]
             if key == locked_key:
                 _remove_path(folder)
@@ -169,11 +168,11 @@ class Cache:
                 with FileLock(self._get_lock_path(key), timeout=0):
                     _remove_path(folder)
             except Timeout:
-                continue  # another process works there
+                continue  # another process uses the folder
 
 
-def _make_own_folder(path: Path) -> None:
-    """Create a folder and its missing parents with permissions for the user only."""
+def _make_private_folder(path: Path) -> None:
+    """Create a folder and its missing parents with permissions for the user only; existing ones stay unchanged."""
     for folder in reversed([path, *path.parents]):
         if not folder.is_dir():
             folder.mkdir(mode=0o700, exist_ok=True)
@@ -200,7 +199,7 @@ def _is_usable(entry: Path) -> bool:
     try:
         return is_complete(entry)
     except UntrustedPathError as error:
-        warn_once(f"an entry of the cache is not used, since {error}; it is made anew")
+        warn_once(f"an entry of the cache is not used, since {error}; it is created again")
         return False
 
 
@@ -211,7 +210,7 @@ def is_complete(entry: Path) -> bool:
     """
     try:
         check_trusted_folder(entry)
-        lines = read_trusted_file(entry / LIST).decode().splitlines()
+        lines = read_trusted_file(entry / CHECKSUM_FILE).decode().splitlines()
         if not lines or lines.pop() != _format_last_line(entry):
             return False
         pairs = [line.split(" ", 1) for line in lines]
@@ -224,7 +223,7 @@ def is_complete(entry: Path) -> bool:
 
 def _format_last_line(entry: Path) -> str:
     """Return the last line of an entry's list of checksums."""
-    return f"{END} {entry.parent.name} {entry.name}"
+    return f"{LAST_LINE_PREFIX} {entry.parent.name} {entry.name}"
 
 
 def _write_checksums(folder: Path, entry: Path) -> None:
@@ -234,8 +233,8 @@ def _write_checksums(folder: Path, entry: Path) -> None:
     """
     paths = sorted(path for path in folder.iterdir() if path.is_file())
     lines = [f"{sha256(path.read_bytes()).hexdigest()} {path.name}" for path in paths]
-    (folder / LIST).write_text("\n".join([*lines, _format_last_line(entry)]) + "\n")
-    for path in (*paths, folder / LIST):
+    (folder / CHECKSUM_FILE).write_text("\n".join([*lines, _format_last_line(entry)]) + "\n")
+    for path in (*paths, folder / CHECKSUM_FILE):
         path.chmod(path.stat().st_mode & ~0o022)
 
 
@@ -244,7 +243,7 @@ def _remove_path(path: Path) -> None:
     import shutil
 
     if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path, ignore_errors=True)  # a compiler that outlived its parent may still write here
+        shutil.rmtree(path, ignore_errors=True)  # a compiler of a killed process may still write here
     else:
         path.unlink(missing_ok=True)
 
@@ -264,7 +263,9 @@ def get_default_cache() -> Cache:
     folder = _find_user_folder()
     if os.path.isabs(folder):
         return Cache(folder)
-    warn_once("no home folder is known; what this process compiles is not kept. Set GUDGEON_CACHE to a folder.")
+    warn_once(
+        "no home folder is known; libraries that this process compiles are not stored. Set GUDGEON_CACHE to a folder."
+    )
     return get_private_cache()
 
 
@@ -294,8 +295,8 @@ def get_private_cache() -> Cache:
     owner = os.getpid()
 
     def remove_folder() -> None:
-        """Remove the folder at the end of the process that made it."""
-        if os.getpid() == owner:  # not in a forked worker that ends before its parent
+        """Remove the folder at the end of the process that created it."""
+        if os.getpid() == owner:  # not in a forked process that ends before its parent
             folder.remove_folder()
 
     atexit.register(remove_folder)

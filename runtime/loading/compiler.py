@@ -26,10 +26,10 @@ INSTALL_COMPILER = (
     "macOS: xcode-select --install; a wheel of 100 MB: pip install 'gudgeon[cc]' — or name it in $CC"
 )
 
-# -O2 with loops as vectors, which gcc before 12 makes from -O3 on alone. Statements that stand apart stay apart: gcc 12
-# makes one vector of a product's sum and another's difference.
+# -O2 with vectorized loops, which gcc before 12 has only from -O3 on. Statements outside loops are not vectorized: gcc
+# 12 would combine the sum of one product with the difference of another.
 # Never -ffast-math: it deletes the isnan tests. No contraction to fused multiply-adds, so that gcc and clang
-# round alike. Nobody reads errno after sqrt, and without it sqrt is one instruction.
+# round alike. errno is not used after sqrt, and without it sqrt is one instruction.
 FLAGS = (
     "-O2",
     "-fno-tree-slp-vectorize",
@@ -38,23 +38,23 @@ FLAGS = (
     "-fPIC",
     "-ffp-contract=off",
     "-fno-math-errno",
-    "-Werror=implicit-function-declaration",  # else a name that a part does not know is a function of whole numbers
+    "-Werror=implicit-function-declaration",  # else an undeclared function would be assumed to return int
 )
-# Behind these, for some units. The time loops are many small functions, which gain by being inlined into each other: a
-# batch of dry presses takes 4 % less time, and 4 % less again by -O2 in place of -O1 for the rest. Formulas of vectors
-# side by side are long: instructions are scheduled beyond what the processor looks ahead (3 % of that batch).
-MORE = {
+# After these, for some units. The time loops are many small functions that are inlined into each other: a batch of dry
+# presses takes 4 % less time, and 4 % less again by -O2 in place of -O1 for the rest. Formulas of lanes are long:
+# instructions are scheduled over more than the processor's window (3 % of that batch).
+UNIT_FLAGS = {
     "loops": ("-O3",),
     "lanes": ("-fschedule-insns", "-fschedule-insns2", "-fsched-pressure"),
 }
 
-GCCS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # flags that only gcc has
-# Of zig's clang: no checks, which it makes where no level of optimization is named, as for a link, and the CPU that all
-# have, where it takes this machine's; -march=native after it still holds.
-ZIG = ("-fno-sanitize=undefined", "-mcpu=baseline")
+GCC_FLAGS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # flags that only gcc has
+# For zig's clang: no run-time checks, which it adds without an optimization level, as for linking; and the baseline CPU
+# in place of this machine's, which -march=native after it overrides.
+ZIG_FLAGS = ("-fno-sanitize=undefined", "-mcpu=baseline")
 
 # flags that change results, which $CC may not contain
-INEXACT = frozenset(
+INEXACT_FLAGS = frozenset(
     (
         "-ffast-math",
         "-Ofast",
@@ -66,7 +66,7 @@ INEXACT = frozenset(
     )
 )
 # messages of compilers on a full disk, and their error numbers
-FULL = {
+DISK_FULL_MESSAGES = {
     "No space left on device": errno.ENOSPC,
     "Disk quota exceeded": errno.EDQUOT,
     "File too large": errno.EFBIG,
@@ -77,24 +77,23 @@ FULL = {
 def build_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
     """Return the compiler's flags for a command; `portable` leaves out those that bind the library to this CPU.
 
-    quick: no optimization, which takes a third of the time. Results are the same, since sums keep their order at every
-    level.
+    quick: no optimization; the compiler then needs a third of the time. Results are the same, since the order of sums
+    is the same at every level.
     """
     machine = os.uname().machine
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
     named: tuple[str, ...] = FLAGS
     if quick or _is_zig(command):
-        named = tuple(("-O0" if quick and flag == "-O2" else flag) for flag in FLAGS if flag not in GCCS)
+        named = tuple(("-O0" if quick and flag == "-O2" else flag) for flag in FLAGS if flag not in GCC_FLAGS)
     return (*named, *(() if portable else (native,)))
 
 
 def _add_unit_flags(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
-    """Return `flags` with those added that a unit needs: time loops ("loops"), lanes ("lanes"), a scene's code
-    ("").
+    """Return `flags` and the flags of UNIT_FLAGS for a unit: time loops ("loops"), lanes ("lanes"), scene code ("").
 
-    They are added only if the compiler understands GCC's flags.
+    They are added only to GCC's flags.
     """
-    return (*flags, *(MORE.get(unit, ()) if set(flags) >= GCCS else ()))
+    return (*flags, *(UNIT_FLAGS.get(unit, ()) if set(flags) >= GCC_FLAGS else ()))
 
 
 def _is_zig(command: tuple[str, ...]) -> bool:
@@ -119,15 +118,15 @@ def find_compiler() -> tuple[str, ...]:
         named = shlex.split(os.environ.get("CC", ""))
     except ValueError as error:
         raise BadValueError(f"$CC is {os.environ['CC']!r}: {error}", hint="name a compiler, or unset it") from error
-    if wrong := sorted(INEXACT.intersection(named)):
-        hint = "leave it out: numbers that are none would not be seen, and sums be made in another order"
+    if wrong := sorted(INEXACT_FLAGS.intersection(named)):
+        hint = "leave it out: with it, NaN is not detected, and sums have another order"
         raise BadValueError(f"$CC has {', '.join(wrong)}", hint=hint)
     for command in [named] if named else [["cc"], ["gcc"], ["clang"]]:
         if program := shutil.which(command[0]):
-            return (os.path.abspath(program), *command[1:])  # it is run in other folders
+            return (os.path.abspath(program), *command[1:])  # absolute, since it runs in other folders
     if not named:
         with suppress(ImportError):
-            return (str(find_zig()), "cc", *ZIG)
+            return (str(find_zig()), "cc", *ZIG_FLAGS)
     expected = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
     raise BuildError(f"{expected}\n  {INSTALL_COMPILER}")
 
@@ -149,14 +148,14 @@ def find_zig() -> Path:
 
     program = Path(ziglang.__file__).with_name("zig")
     if not os.access(program, os.X_OK):
-        raise ImportError(f"{program} is no program")
+        raise ImportError(f"{program} is not executable")
     return program
 
 
 def describe_compiler(command: tuple[str, ...], cache: Cache) -> str:
     """Return compiler, version, machine and C library as text, for the cache keys of libraries.
 
-    The version is cached by path, size and time of every program in the command, since asking for it is slow.
+    The version is cached on disk by path, size and time of every program in the command, since running it is slow.
     """
     import shutil
 
@@ -170,9 +169,7 @@ def describe_compiler(command: tuple[str, ...], cache: Cache) -> str:
 
 
 def read_compiler_version() -> str:
-    """Return the first line of the compiler's version; without a compiler, a text that the library came with
-    gudgeon.
-    """
+    """Return the first line of the compiler's version; without a compiler, "none: the library came with gudgeon"."""
     try:
         command = find_compiler()
         return describe_compiler(command, get_default_cache()).split("\n")[len(command)]
@@ -210,7 +207,7 @@ def describe_cpu() -> str:
     with open("/proc/cpuinfo", errors="replace") as file:
         for line in file:
             if not line.strip():
-                break  # the first core speaks for all: a node of hundreds would cost milliseconds
+                break  # the first core represents all: reading hundreds of cores takes milliseconds
             if line.startswith(expected):
                 lines.append(line.strip())
     return "\n".join(lines)
@@ -238,7 +235,7 @@ def start_compiler(programs: Programs, command_line: Sequence[str], folder: Path
 
     Raise BuildError if it cannot run.
     """
-    environment = {**build_environment(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
+    environment = {**build_environment(), "TMPDIR": str(folder)}  # its temporary files are removed with the folder
     try:
         return programs.start([*command_line], folder, environment)
     except OSError as error:
@@ -255,14 +252,14 @@ def wait_for_compiler(programs: Programs, process: subprocess.Popen[str], output
     if process.returncode == 0 and output_file.is_file():
         return None
     specified = (err or out).strip()
-    for text, code in FULL.items():
+    for text, code in DISK_FULL_MESSAGES.items():
         if text in specified:
-            return OSError(code, f"the compiler said: {text}")
+            return OSError(code, f"the compiler reported: {text}")
     if process.returncode == -signal.SIGXFSZ:
         return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
-    first = "\n  ".join(specified.splitlines()[:8]) or "it said nothing"
+    first = "\n  ".join(specified.splitlines()[:8]) or "it printed nothing"
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
     message = f"failed (exit status {process.returncode})"
     if process.returncode == 0:
-        message = f"ended without an error, and made no {output_file.name}"
+        message = f"ended without an error, but did not write {output_file.name}"
     return BuildError(f"the C compiler {message}:\n  {first}\n  called as {line}")

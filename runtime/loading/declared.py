@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "d0ea07d68d190d2cfeb42d881fae78decc43d89db0ae5f74c048f5fc02fec02b"  # SHA-256 of these declarations
+SHA256 = "d0ea07d68d190d2cfeb42d881fae78decc43d89db0ae5f74c048f5fc02fec02b"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,

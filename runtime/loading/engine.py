@@ -52,7 +52,7 @@ def build_include_flags() -> tuple[str, ...]:
 def select_declarations(source: KernelSource) -> str:
     """Return the declarations of the functions of a source's library, as cffi reads them.
 
-    They are those of the source (lanes), or those of the engine that its model.h selects.
+    A library of lanes has its own declarations (`cdef`); for other sources, model.h selects those of the engine.
     """
     return source.cdef or _select_engine_declarations(source.files[HEADER])
 
@@ -88,22 +88,20 @@ def _select_lines(text: str, values: dict[str, int]) -> str:
 
     Preprocessor lines are left out.
     """
-    kept, holds = [], True
+    selected, is_active = [], True
     for line in text.splitlines():
         if line.startswith("#if "):
             names = line.removeprefix("#if ").split(" && ")
-            holds = all(bool(values[name.lstrip("!")]) != name.startswith("!") for name in names)
+            is_active = all(bool(values[name.lstrip("!")]) != name.startswith("!") for name in names)
         elif line.startswith("#endif"):
-            holds = True
-        elif holds and not line.startswith("#"):
-            kept.append(line)
-    return "\n".join(kept) + "\n"
+            is_active = True
+        elif is_active and not line.startswith("#"):
+            selected.append(line)
+    return "\n".join(selected) + "\n"
 
 
 def read_files(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
-    """Yield (path relative to `folder`, bytes) of all files below it with these suffixes, sorted by the parts of the
-    paths.
-    """
+    """Yield (path relative to `folder`, bytes) of all files below it with these suffixes, sorted by path parts."""
     entries_by_parts, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
     while left:
         parts, entry_path = left.pop()

@@ -62,7 +62,7 @@ def read_scene(folder: Path, scene: str) -> KernelSource | None:
             for name, path in stored["files"].items()
         }
         return replace(KernelSource.from_json(stored["rest"]), files=files)
-    except (OSError, ValueError, TypeError, KeyError):  # absent, cut short, or written by another version
+    except (OSError, ValueError, TypeError, KeyError):  # absent, truncated, or written by another version
         return None
 
 
@@ -75,7 +75,7 @@ def read_scenes(folder: Path) -> list[KernelSource]:
 def read_archive(folder: Path) -> dict[str, Any]:
     """Return the contents of the archive: "scenes" with the path of each text, and "texts" by path; {} if damaged."""
     try:
-        import lzma  # some builds of Python have none: then scenes are derived
+        import lzma  # some builds of Python lack it: scenes are then derived
 
         data: dict[str, Any] = json.loads(lzma.decompress((folder / ARCHIVE).read_bytes()))
         return data

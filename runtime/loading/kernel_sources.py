@@ -111,8 +111,8 @@ def find_kernel_source(
 ) -> tuple[KernelSource, str]:
     """Return the kernel source of a scene, and its origin: the cache, the committed files, or a new derivation.
 
-    formulation: as in `load`, or a method for smooth motion: the reduced one with that method. background: compiles
-    parts in the background during a derivation.
+    formulation: as in `load`, or STAGES or a method for smooth motion: the reduced formulation with the code of these
+    methods. background: compiles parts in the background during a derivation. The source is stored in the cache.
     """
     if formulation not in (*FORMULATIONS, *SMOOTH, STAGES):
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
@@ -120,7 +120,7 @@ def find_kernel_source(
     key = compute_model_key(data, scene, overrides, formulation)
     origin = "cache"
 
-    def write_source(folder: Path) -> None:  # what tables and laws the file has is found out here
+    def write_source(folder: Path) -> None:  # the derivation finds the tables and laws of the file
         """Write the kernel source into a folder, committed or newly derived; set `origin` to its kind."""
         nonlocal origin
         source = None
@@ -142,11 +142,11 @@ def find_kernel_source(
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
     source = fetch_source(key, regenerate)
-    present_files = hash_present_tables(source, file), find_present_law_keys(source)
-    if present_files != (source.tables, source.laws):  # of other bytes: an entry of its own
-        key = compute_digest([key, json.dumps(present_files)])
+    current_files = hash_current_tables(source, file), list_current_law_keys(source)
+    if current_files != (source.tables, source.laws):  # changed tables or laws get another cache entry
+        key = compute_digest([key, json.dumps(current_files)])
         source = fetch_source(key, False)
-        if (hash_present_tables(source, file), find_present_law_keys(source)) != (
+        if (hash_current_tables(source, file), list_current_law_keys(source)) != (
             source.tables,
             source.laws,
         ):  # edited meanwhile
@@ -171,16 +171,20 @@ def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Ov
     return overrides_change_scene(data, str(file), scene, overrides)
 
 
-def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
-    """Return the tables of a kernel source as pairs of name and SHA-256 of its present file next to `file`.
+def hash_current_tables(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
+    """Return the tables of a kernel source as pairs of name and SHA-256 of the current file next to `file`.
 
-    Raises InputError if one is missing.
+    They differ from `source.tables` if a table was edited. Raises InputError if one is missing.
     """
     return tuple((name, sha256(read_table_file(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
-def find_present_law_keys(source: KernelSource) -> tuple[tuple[str, str], ...]:
-    """Return the user-defined laws of a kernel source as pairs of name and present key, "" if not registered."""
+def list_current_law_keys(source: KernelSource) -> tuple[tuple[str, str], ...]:
+    """Return the user-defined laws of a kernel source as pairs of name and key of the law that is registered now.
+
+    The key is "" for laws that are not registered in this process. Keys differ from `source.laws` if a law was
+    replaced.
+    """
     if not source.laws:
         return ()
     from gudgeon.generator.kinds.laws.registered import find_law_key
@@ -199,21 +203,19 @@ def derive_kernel_source(
 ) -> KernelSource:
     """Derive the kernel source of a scene from the bytes of its file; each stage adds its time (s) to `seconds`.
 
-    `background` compiles finished parts in the background meanwhile. Errors in the file are reported before SymPy is
-    imported. None for `overrides`, `seconds` and `background`: the file's values, no times, no compilation meanwhile.
+    `background` compiles finished parts during the derivation. Errors in the file are reported before SymPy is
+    imported. None for `overrides`, `seconds` and `background`: the file's values, no times, no compilation.
     """
     with (
         report_work(f"deriving {file.stem}, scene {scene}"),
         pause_garbage_collector(),
-    ):  # nearly all that SymPy makes stays in its caches
+    ):  # nearly all objects of SymPy stay in its caches
         import_modules_completely(*READER)
         from gudgeon.generator.reader.read import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
         announce_long_derivation(file.stem, len(read.mechanism.bodies))
-        if (
-            background and formulation == FORMULATIONS[0]
-        ):  # a copy of a shipped file mostly has its numbers alone changed
+        if background and formulation == FORMULATIONS[0]:  # copies of shipped files usually have changed values only
             background.prefetch_engine(read_committed_header(read.mechanism.name, scene))
         start = perf_counter()
         import_modules_completely(*GENERATOR)

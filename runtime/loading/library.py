@@ -3,10 +3,9 @@
 cffi's parser takes a tenth of a second to import. Its result for the engine's declarations is stored in declared.py,
 which `make generated` writes. Other declarations are parsed here.
 
-A wheel contains libraries of shipped mechanisms for machines without a compiler (`build_convection_matrix`), made by
-`tools/wheels.py`
-with portable instructions. They are identified by the texts that they were compiled from, so that an edited file or
-another engine never uses them.
+A wheel contains libraries of shipped mechanisms for machines without a compiler (BUNDLED_FOLDER), built by
+`tools/wheels.py` with portable instructions. They are identified by the texts that they were compiled from, so that an
+edited file or another engine never uses them.
 """
 
 from __future__ import annotations
@@ -32,8 +31,8 @@ from gudgeon.loading.engine import (
 from gudgeon.loading.shipped import PACKAGE
 from gudgeon.waiting.imports import CFFI, import_modules_completely
 
-UNOPTIMIZED_NOTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
-CARRIED = PACKAGE / "carried"  # folder of the bundled libraries
+UNOPTIMIZED_NOTE = "its optimized library was still being compiled at the start of the run: later runs take less time"
+BUNDLED_FOLDER = PACKAGE / "carried"  # folder of the bundled libraries
 
 
 @dataclass(frozen=True)
@@ -46,13 +45,13 @@ class Library:
 
 
 class PendingLibrary(Protocol):
-    """Provide an optimized library that is being made (optimized_library.py), for `Functions.replace_functions`."""
+    """Provide an optimized library that is being compiled (optimized_library.py), for `Functions.replace_functions`."""
 
     def switch_if_library_is_ready(self, functions: Functions) -> bool:
-        """Use the library if it exists; return whether it is still to come."""
+        """Switch `functions` to the library if it exists; return whether it is still expected."""
 
     def wait_for_library_and_switch(self, functions: Functions) -> None:
-        """Wait for the library and use it."""
+        """Wait for the library, and switch `functions` to it."""
 
 
 class Functions:
@@ -82,20 +81,23 @@ class Functions:
 
     @property
     def optimization_note(self) -> str:
-        """Return a note for measured times while an optimized library is being made; else ""."""
+        """Return a note for measured times while an optimized library is being compiled; else ""."""
         return UNOPTIMIZED_NOTE if self._pending_library else ""
 
     def set_pending_library(self, pending_library: PendingLibrary) -> None:
-        """Register an optimized library of the same texts that is being made."""
+        """Register an optimized library of the same texts that is being compiled."""
         self._pending_library = pending_library
 
     def switch_library_if_ready(self) -> None:
-        """Switch to the optimized library if it exists by now; called often during runs. Do nothing without one."""
+        """Switch to the optimized library if its compilation has ended; called often during runs.
+
+        Do nothing without a pending library. After a failed compilation, the current library stays in use.
+        """
         if (pending_library := self._pending_library) and not pending_library.switch_if_library_is_ready(self):
             self._pending_library = None
 
     def wait_for_optimized_library(self) -> None:
-        """Wait for the optimized library, if one is being made, and switch to it, before long computations."""
+        """Wait for the optimized library, if one is being compiled, and switch to it, before long computations."""
         if pending_library := self._pending_library:
             pending_library.wait_for_library_and_switch(self)
             self._pending_library = None
@@ -124,15 +126,13 @@ def open_library(file: Path, cdef: str = "") -> Library:
 
 @lru_cache(maxsize=1)
 def _get_engine_interface() -> Any:
-    """Return cffi's interface to the engine's declarations, cached; the stored one, unless the declarations have
-    changed.
-    """
+    """Return cffi's interface to the engine's declarations: the stored one unless the declarations have changed."""
     text = list_all_declarations()
-    return declared.ffi if compute_digest([text]) == declared.OF else _parse_declarations(text)
+    return declared.ffi if compute_digest([text]) == declared.SHA256 else _parse_declarations(text)
 
 
 def _parse_declarations(text: str) -> Any:
-    """Return cffi's interface to declarations that are parsed now."""
+    """Parse declarations and return cffi's interface to them; importing the parser takes a tenth of a second."""
     import_modules_completely(*CFFI)
     from cffi import FFI
 
@@ -144,14 +144,14 @@ def _parse_declarations(text: str) -> Any:
 def open_bundled_library(source: KernelSource) -> Library | None:
     """Return the library of a source that is bundled with gudgeon; None if there is none or it cannot be opened.
 
-    The user's $CC switches bundled libraries off.
+    None too if $CC is set, so that a user's compiler is always used.
     """
     if os.environ.get("CC"):
         return None
-    path = CARRIED / format_platform(sys.platform, os.uname().machine) / compute_library_file_name(source)
+    path = BUNDLED_FOLDER / format_platform(sys.platform, os.uname().machine) / compute_library_file_name(source)
     try:
         return open_library(path, source.cdef) if path.is_file() else None
-    except ImportError:  # of another C library, as musl
+    except ImportError:  # compiled for another C library, such as musl
         return None
 
 

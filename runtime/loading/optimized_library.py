@@ -1,10 +1,10 @@
 """Compile the optimized library of a new scene in another process, while runs use an unoptimized one.
 
-The quick library has the same texts, without optimization. It takes a third of the compiler's time, gives the same
-bits, and runs up to three times as long. A separate process (`make_optimized_library`), which may outlive this one,
-compiles the optimized library into the cache. Runs that are under way continue with it as soon as it exists.
+The quick library is compiled from the same texts, without optimization. The compiler needs a third of the time; runs
+give the same bits and take up to three times as long. A separate process (`make_optimized_library`), which may outlive
+this one, compiles the optimized library into the cache. Runs continue with it as soon as it exists.
 
-The optimized library is awaited if that process cannot be started or has failed before, if the cache is not kept, or
+The optimized library is awaited if that process cannot be started or has failed before, if the cache is temporary, or
 with GUDGEON_QUICK=0.
 """
 
@@ -29,20 +29,20 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 if TYPE_CHECKING:
     import subprocess
 
-KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
+QUICK_KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
 SOURCE = "source.json"
 # program of the other process
-OTHER = (
+PROGRAM = (
     "import sys; sys.path[:] = sys.argv[2:]; from gudgeon.loading.optimized_library import "
     "make_optimized_library; make_optimized_library(sys.argv[1])"
 )
-NICE = 5  # lower priority of the other process, since the run is more urgent
+NICENESS = 5  # lower priority of the other process, since the run is more urgent
 MAX_PROCESSES = 4  # largest number of such processes at once
-_begun: list[subprocess.Popen[bytes]] = []  # processes started by this process
+_started_processes: list[subprocess.Popen[bytes]] = []  # processes started by this process
 
 
 def may_compile_in_background(cache: Cache) -> bool:
-    """Return whether a background process may be started to make an optimized library, and the cache would keep it.
+    """Return whether a background process may be started to build an optimized library, and the cache would store it.
 
     It may not with GUDGEON_QUICK=0, with a private or read-only cache, in programs that embed Python, or if
     MAX_PROCESSES are running.
@@ -50,15 +50,15 @@ def may_compile_in_background(cache: Cache) -> bool:
     if os.environ.get("GUDGEON_QUICK") == "0" or cache.private:
         return False
     if getattr(sys, "frozen", False) or not Path(sys.executable or "").name.startswith(("python", "pypy")):
-        return False  # a program that has Python inside, and would begin anew
-    if sum(process.poll() is None for process in _begun) >= MAX_PROCESSES:
+        return False  # a program that embeds Python: the command line would start the program again
+    if sum(process.poll() is None for process in _started_processes) >= MAX_PROCESSES:
         return False
     existing_folder = next(folder for folder in (cache.root, *cache.root.parents) if os.path.exists(folder))
     return os.access(existing_folder, os.W_OK)
 
 
 class OptimizedLibrary:
-    """Provide the optimized library `key` of a scene while another process makes it. `build` makes it here."""
+    """Provide the optimized library `key` of a scene while another process builds it; `build` builds it here."""
 
     def __init__(
         self, cache: Cache, key: str, build: Callable[[Path], None], open_entry: Callable[[Path], Library]
@@ -72,20 +72,20 @@ class OptimizedLibrary:
         import subprocess
 
         request = json.dumps([str(self._cache.root), str(quick_entry), portable])
-        line = [sys.executable, "-c", OTHER, request, *sys.path]
+        line = [sys.executable, "-c", PROGRAM, request, *sys.path]
         nothing = subprocess.DEVNULL
         with DelayedCtrlC() as ctrl_c, suppress(OSError):
             self._process = subprocess.Popen(
                 line, stdin=nothing, stdout=nothing, stderr=nothing, start_new_session=True
             )
-            _begun.append(self._process)
+            _started_processes.append(self._process)
         ctrl_c.raise_delayed()
         return self._process is not None
 
     def switch_if_library_is_ready(self, functions: Functions) -> bool:
-        """Switch `functions` to the optimized library if the cache has it; return whether it is still to come.
+        """Switch `functions` to the optimized library if the cache has it; return whether it is still expected.
 
-        False also means that the process failed. Another thread that is checking makes this one return True.
+        Return False after the switch, and if the process has failed. Return True at once while another thread checks.
         """
         lock = self._get_lock()
         if not lock.acquire(blocking=False):
@@ -95,7 +95,7 @@ class OptimizedLibrary:
             if not self._cache.has_folder("libraries", self._key):
                 return not has_ended
             entry = self._cache.root / "libraries" / self._key
-            with suppress(GudgeonError, OSError, UntrustedPathError):  # the next start makes it anew, and tells
+            with suppress(GudgeonError, OSError, UntrustedPathError):  # the next start builds it again and reports
                 if is_complete(entry):
                     self._switch_functions(functions, entry)
             return False
@@ -103,7 +103,7 @@ class OptimizedLibrary:
             lock.release()
 
     def wait_for_library_and_switch(self, functions: Functions) -> None:
-        """Wait for the optimized library and switch `functions` to it; make it here if the other process did not.
+        """Wait for the optimized library and switch `functions` to it; build it here if the other process did not.
 
         Raises BuildError.
         """
@@ -117,8 +117,8 @@ class OptimizedLibrary:
         return self._lock
 
     def _switch_functions(self, functions: Functions, entry: Path) -> None:
-        """Let `functions` call the library of a cache entry; keep the present one if it cannot be opened."""
-        with suppress(ImportError):  # the next start tells
+        """Let `functions` call the library of a cache entry; if it cannot be opened, the current one stays in use."""
+        with suppress(ImportError):  # the next start reports it
             functions.replace_functions(self._open(entry).lib)
 
 
@@ -133,7 +133,7 @@ def make_optimized_library(request: str) -> None:
     from gudgeon.loading.build import compile_kernels
 
     root, quick_entry, portable = json.loads(request)
-    os.nice(NICE)
+    os.nice(NICENESS)
     if is_complete(Path(quick_entry)):
         source = KernelSource.from_json(Path(quick_entry, SOURCE).read_bytes().decode())
         with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other

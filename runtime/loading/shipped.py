@@ -62,8 +62,8 @@ def _build_unknown_name_error(kind: str, name: str, names: tuple[str, ...]) -> I
     Without any names, it is an InputError for an incomplete installation.
     """
     if not names:
-        message = f"this installation of gudgeon is not whole: it has no {kind.replace('y', 'ie')}s"
-        return InputError(message, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
+        message = f"this installation of gudgeon is incomplete: it has no {kind.replace('y', 'ie')}s"
+        return InputError(message, hint="install it again; in a clone, run `make run` or `sh tools/setup all,web`")
     from gudgeon.language.names import find_nearest_name
 
     guess = find_nearest_name(name, names)
@@ -74,8 +74,9 @@ def _build_unknown_name_error(kind: str, name: str, names: tuple[str, ...]) -> I
 
 
 def read_committed_header(mechanism: str, scene: str) -> str:
-    """Return the committed model.h of a scene, whatever version of its YAML; "" if there is none or a name is
-    invalid.
+    """Return the committed model.h of a scene for any version of its YAML; "" without one or for an invalid name.
+
+    It predicts the engine's sizes, so that the engine can be compiled during a derivation.
     """
     if not (mechanism.isidentifier() and scene.isidentifier()):
         return ""
@@ -86,10 +87,8 @@ def read_committed_header(mechanism: str, scene: str) -> str:
 
 
 def read_committed_source(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
-    """Return the committed kernel source of a shipped scene; None unless it was made from a YAML file with this
-    SHA-256.
-    """
+    """Return the committed kernel source of a shipped scene; None unless its YAML file has this SHA-256."""
     if not (mechanism.isidentifier() and scene.isidentifier()):
-        return None  # a name must not walk out of the folder
+        return None  # a name must not lead out of the folder
     source = read_scene(GENERATED / mechanism, scene)
     return source if source and source.sha256 == sha256 else None

@@ -18,7 +18,7 @@ from gudgeon.errors import ArrayError
 
 # types of numbers, contact codes and flags in C
 FLOAT, CODE, FLAG = np.dtype(np.float64), np.dtype(np.int8), np.dtype(np.uint8)
-# C's type -> what cffi calls an array of it, what NumPy does; memory of a struct is bytes
+# by type of pointer in C: names of the array type in cffi and of its elements in NumPy; memory of a struct is bytes
 _KINDS = {
     "double *": ("double[]", FLOAT),
     "int *": ("int[]", np.dtype("i")),
@@ -40,7 +40,7 @@ def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", is_writt
     type_for_cffi, dtype = _KINDS[kind]
     if array.dtype is dtype or array.dtype == dtype:
         if not array.flags.aligned:
-            raise ArrayError(f"an array at an odd address for {kind}")
+            raise ArrayError(f"an unaligned array for {kind}")
         try:
             return ffi.from_buffer(type_for_cffi, array, is_written)
         except (BufferError, ValueError) as error:
@@ -73,7 +73,7 @@ def as_c_array(
         and values.size <= max_entries
         and not values.flags.c_contiguous
     ):
-        array = np.array(values, order="C")  # rows or columns of another one
+        array = np.array(values, order="C")  # rows or columns of another array
     else:
         array = _convert_to_c_array(values, name, shape, dtype, always_copy, max_entries)
     if shape is not None and array.shape != shape and not _has_shape(array.shape, shape):
@@ -120,7 +120,7 @@ def _convert_to_c_array(
         source: NDArray[Any] = np.asarray(values)
     except (TypeError, ValueError, OverflowError, MemoryError) as error:
         raise ArrayError(f"{name}: no array of numbers: {error}") from None
-    if source.size > max_entries:  # before anything of its size is made: a view may stand for any number of entries
+    if source.size > max_entries:  # before anything of this size is allocated: a view may have any number of entries
         raise ArrayError(f"{name} has {source.size} entries: expected {max_entries} at most")
     if source.dtype.kind == "O":
         source = _convert_objects_to_floats(source, name)
@@ -128,7 +128,7 @@ def _convert_to_c_array(
         kind = {"U": "text", "S": "bytes"}.get(source.dtype.kind, source.dtype.name)
         _raise_not_real_error(name, f"holds {kind if source.ndim else repr(values)[:60]}")
     if source.dtype.kind == "b" and dtype.kind == "f":
-        _raise_not_real_error(name, "holds truths" if source.ndim else f"is {source}")
+        _raise_not_real_error(name, "holds booleans" if source.ndim else f"is {source}")
     if shape is not None:
         _check_shape(source, name, shape)
     array: NDArray[Any] = np.array(source, dtype, order="C") if always_copy else np.asarray(source, dtype, order="C")
@@ -160,7 +160,7 @@ def _check_no_masked_entries(values: Any, name: str) -> None:
     Masked arrays and sequences with `numpy.ma.masked` are recognised. Nothing is checked before numpy.ma is imported.
     """
     ma = sys.modules.get("numpy.ma")  # NumPy imports it on request: before, no masks exist
-    if getattr(ma, "extras", None) is None:  # or another thread is still at it
+    if getattr(ma, "extras", None) is None:  # not imported, or another thread is importing it
         return
     assert ma is not None
     if isinstance(values, ma.MaskedArray):
@@ -183,7 +183,7 @@ def _find_masked_rows(ma: Any, values: Any) -> NDArray[np.bool_]:
 
 
 def _raise_not_real_error(name: str, message: str) -> NoReturn:
-    """Raise ArrayError: `name` `message`: expected real numbers."""
+    """Raise ArrayError with the text "NAME MESSAGE: expected real numbers"."""
     raise ArrayError(
         f"{name} {message}: expected real numbers", hint="an array, a list or a column of floats or integers"
     )

@@ -1,4 +1,4 @@
-"""Cache what functions of a scene and its parameter values return, for repeated calls with the same values."""
+"""Memoize functions of a scene and its parameter values: a cache of their results for calls with the same values."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
         cache: dict[Any, Value] = owner.__dict__.get(CACHED_VALUES, _EMPTY)
         try:
             value: Any = cache.get(entry, _EMPTY)  # without the lock, which only guards changes
-        except TypeError:  # no hash
+        except TypeError:  # an argument has no hash
             return function(owner, *arguments)
         if value is not _EMPTY:
             return value

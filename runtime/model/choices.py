@@ -53,7 +53,7 @@ def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
         return "", ""
     if key not in ("law", *(option.name for law in find_laws_of_role(role).values() for option in law.options)):
         return "", ""
-    return f"{address} is a choice that C is made of, and no number that can be set", (
+    return f"{address} selects compiled equations: it is not a parameter that can be set", (
         f"write a second contact, other: {{extends: {name}, {role}: {{{key}: …}}}}, and a scene with it, or a study's"
         f' choices; in Python gudgeon.load(…, overrides={{"{address}": "…"}})'
     )
@@ -73,26 +73,26 @@ def explain_named_expression(source: KernelSource, address: str) -> tuple[str, s
     parameters_in_expression = ", ".join(
         name for name in names_in_expression if f"parameters.{name}" in parameter_addresses
     )
-    return f"{full_address} is an expression, compiled as it stands: it is no number that can be set", (
-        (f"set what it is made of: {parameters_in_expression}; " if parameters_in_expression else "")
-        + "overrides= of gudgeon.load compiles anew with another expression"
+    return f"{full_address} is a compiled expression: it is not a parameter that can be set", (
+        (f"set its parameters: {parameters_in_expression}; " if parameters_in_expression else "")
+        + "overrides= of gudgeon.load compiles another expression"
     )
 
 
 def format_parameter(parameter: RuntimeParameter, value: float) -> float | str:
-    """Return a parameter's value as users see it: its word, or the number. Raises ValueError for an invalid index."""
+    """Return a parameter's value as users write it: the word of a choice ("bronze"), else the number.
+
+    Raises ValueError for an index without a word.
+    """
     if not parameter.words:
         return float(value)
     if value not in range(len(parameter.words)):
-        raise ValueError(f"{parameter.address} is {value!r}, the place of no word")
+        raise ValueError(f"{parameter.address} is {value!r}: expected an index from 0 to {len(parameter.words) - 1}")
     return parameter.words[int(value)]
 
 
 def format_values_of_runs(parameter: RuntimeParameter, values: Array) -> Any:
-    """Return the values (n,) of a parameter in n runs as users see them.
-
-    They are a copy of the numbers, or an array of words for a choice.
-    """
+    """Return the values (n,) of a parameter in n runs: a copy of the numbers, or an array of the words of a choice."""
     return (
         np.array([format_parameter(parameter, x) for x in values.tolist()], dtype=object)
         if parameter.words
@@ -111,15 +111,16 @@ def fill_in_chosen_values(
 ) -> tuple[Any, Any]:
     """Return copies of values and mask (n_parameters,) with the values that depend on the choices `choice_indices`.
 
-    These values are those of the chosen materials in p, unless they are given themselves.
+    These values are those of the chosen materials in p, unless they are given themselves: E of "bronze" for
+    bearings.pin.journal_material.E.
     """
     index_by_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
     values, mask = given_values.copy(), is_given.copy()
     for k in choice_indices:
         material, prefix = format_parameter(source.slots[k], float(given_values[k])), f"{source.slots[k].address}."
-        for address, k_own in index_by_address.items():
-            if address.startswith(prefix) and not is_given[k_own]:
-                values[k_own], mask[k_own] = (
+        for address, dependent in index_by_address.items():
+            if address.startswith(prefix) and not is_given[dependent]:
+                values[dependent], mask[dependent] = (
                     p[index_by_address[f"materials.{material}.{address.removeprefix(prefix)}"]],
                     True,
                 )
@@ -127,7 +128,7 @@ def fill_in_chosen_values(
 
 
 def make_choice_notes(source: KernelSource, given_values: Array, is_given: Array) -> tuple[str, ...]:
-    """Return a note for each choice of a run that differs from its scene's.
+    """Return a note for each choice of a run that differs from its scene's: "x.material is steel (the scene's is tin)".
 
     given_values, is_given: values and mask (n_parameters,).
     """

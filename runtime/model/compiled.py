@@ -35,18 +35,17 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 
-RUNS_PER_CALL = 1024  # runs whose parameter values are computed in one call, so that they stay in the processor's cache
+RUNS_PER_CALL = 1024  # runs whose parameter values are computed in one call, so that they stay in the CPU cache
 MAX_MASS_RATIO = 1e14  # largest ratio of two masses: in doubles, a sum of both still contains the lighter one
-MAX_MASS_RATIO_WITH_POINT_MASS = (
-    1e12  # the same if an inertia is 0: the body's rotation then has the inertia m l² alone
-)
+# the same if an inertia is 0: the body's rotation then has the inertia m l² alone
+MAX_MASS_RATIO_WITH_POINT_MASS = 1e12
 
 
 class CompiledModel:
     """Evaluate the equations of one scene in C. `p` is what `prepare` returns: parameters, then derived values (SI)."""
 
     def __init__(self, source: KernelSource, library: Library, portable: bool = False, text: str = "") -> None:
-        self.source, self.portable = source, portable  # as its library was compiled, and further ones will be
+        self.source, self.portable = source, portable  # whether libraries of this scene are compiled portably
         self.text = text  # of the mechanism's file
         self.__dict__.update(lib=library.lib, ffi=library.ffi)
         self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
@@ -54,7 +53,7 @@ class CompiledModel:
         self._free_contact_states = np.full(max(self.n_memory, 1), np.nan)
         self._free_contact_states.flags.writeable = False
         self._choices = find_choices(source)
-        self.free_runs: dict[Any, list[Any]] = {}  # memory for runs (integrators/single_run.py)
+        self.free_runs: dict[Any, list[Any]] = {}  # unused runs with their arrays (integrators/single_run.py)
         closed = [row.name for row in source.start_rows]
         self._open_play_rows = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
@@ -70,7 +69,7 @@ class CompiledModel:
 
     @cached_property
     def compiler(self) -> str:
-        """Return the first line of the C compiler's version; the compiler is asked at the first use."""
+        """Return the first line of the C compiler's version; the compiler is run at the first use."""
         from gudgeon.loading.compiler import read_compiler_version
 
         return read_compiler_version()
@@ -79,13 +78,16 @@ class CompiledModel:
     def has_mod_in_drives(self) -> bool:
         """Return whether a drive uses `mod`: rounding then decides on which side of a switching point a time is."""
         from gudgeon.language.tree import list_functions
-        from gudgeon.model.written import read_expression_trees
+        from gudgeon.model.file_expressions import read_expression_trees
 
         return any("mod" in list_functions(tree) for _, tree in read_expression_trees(self.source, ("drives",)))
 
     @cached_property
     def has_all_forces(self) -> bool:
-        """Return whether all forces are determined, at the times of the samples themselves."""
+        """Return whether all forces are determined, and samples are evaluated at exactly their own times.
+
+        False without masses, for redundant constraints, and for drives with `mod`.
+        """
         return not (self.source.massless or self.source.indeterminate or self.has_mod_in_drives)
 
     @cached_property
@@ -118,7 +120,7 @@ class CompiledModel:
         return compile_kernels(self.source, portable=self.portable)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the state for pickling, without the library."""
+        """Return the attributes for pickling, without the library, cached values and unused runs."""
         left_out = "lib", "ffi", CACHED_VALUES
         return {name: value for name, value in self.__dict__.items() if name not in left_out} | {"free_runs": {}}
 
@@ -136,13 +138,13 @@ class CompiledModel:
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
         """Return all values of a run, (n_parameters + n_derived,), from given parameters (n_parameters,) and a mask.
 
-        If a choice is given, C is called twice: the values that depend on the choice are taken from the first call.
-        Nothing is checked except shapes (ArrayError).
+        Parameters that are not given get their defaults. If a choice is given, C is called twice: the first call
+        computes the values of the chosen material. Nothing is checked except shapes (ArrayError).
         """
         shape = (len(self.source.slots),)
         values, mask = as_c_array(given, "given", shape), as_c_array(is_given, "is_given", shape, dtype=FLAG)
         p, given_choices = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
-        for is_last_call in (False, True) if given_choices else (True,):  # what is chosen has numbers of this run
+        for is_last_call in (False, True) if given_choices else (True,):  # materials have values of this run
             self.lib.gudgeon_prepare(
                 self.pointer(values), self.pointer(mask, "unsigned char *"), self._get_output_pointer(p)
             )
@@ -263,7 +265,7 @@ class CompiledModel:
         The shapes are (2n + 3 + k, 2n + 3 + k) and (2n + 3 + k,). k is the number of internal states of laws: their
         rates follow q̈ and the powers, the states follow the works. Their values are in `discrete_states`, as in a
         sample. Contacts, branches of switching functions and modes of friction are those of this state. Raises
-        SingularError where constraint equations depend on each other, ValueError where nothing is integrated.
+        SingularError where constraint equations depend on each other, ValueError for scenes without a Jacobian.
         `discrete_states` None: all contacts are open.
         """
         if reason := self.source.reason_without_jacobian:
@@ -369,13 +371,15 @@ class CompiledModel:
         """
         if status > 0:
             row = (pivot_names or self.source.pivots)[status - 1]
-            fault = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
+            fault = (
+                f"constraint equation {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
+            )
             message = f"singular or non-finite at t = {t:.9g} s: the pivot of {fault}\n"
             if p is not None and (masses := describe_mass_ratio(self.source, self.mass(p))):
                 raise SingularError(f"{message}  {masses}", t, row)
             raise SingularError(
                 f"{message}  the mechanism is at a singular position (dead centre), constraints are redundant,"
-                " or the state is no longer finite: check the start, or take a smaller step",
+                " or the state is no longer finite: check the start, or use a smaller step",
                 t,
                 row,
             )
@@ -402,7 +406,7 @@ class CompiledModel:
         """
         state = as_c_array(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
-            as_c_array(state, "y", (2 * self.n,))  # says so
+            as_c_array(state, "y", (2 * self.n,))  # raises the error
         return (
             self.pointer(state),
             self.pointer(self.as_discrete_states(discrete_states)),
@@ -447,7 +451,7 @@ def describe_mass_ratio(source: KernelSource, mass: NDArray[Any]) -> str:
         lightest, heaviest = min(values, key=values.__getitem__), max(values, key=values.__getitem__)
         if values[heaviest] >= limit * values[lightest]:
             message = f"the {quantity} of {heaviest} ({values[heaviest]:g} {unit})"
-            message += f" and {lightest} ({values[lightest]:g} {unit}) are too far apart"
+            message += f" and {lightest} ({values[lightest]:g} {unit}) have too large a ratio"
             condition = " where a body has an inertia of 0" if limit < MAX_MASS_RATIO else ""
-            return f"{message} for doubles\n  expected none {limit:g} times another one{condition}; check their units"
+            return f"{message} for doubles\n  expected less than {limit:g} times{condition}; check their units"
     return ""

@@ -21,22 +21,22 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 Contours = Mapping[str, ArrayLike]
-_WANTED = "{joint: depths (m) at equal angles}"  # expected form of the argument `contour`
+_EXPECTED_FORM = "{joint: depths (m) at equal angles}"  # expected form of the argument `contour`
 Number = TypeVar("Number", float, Array)
 _DEPTH, _RATE = (CLEARANCE_COLUMNS.index(name) for name in ("delta", "deltadot"))
 
 
 def read_contours(source: KernelSource, contour: Any, allows_runs: bool = False) -> dict[str, Array]:
-    """Return the checked depths of the given joints, (n,) each as in the file; with `allows_runs` also (N, n) for N
-    runs.
+    """Return the checked argument `contour`, {joint: depths (m)}, as arrays (n,); {} for None.
 
-    Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths or values that are
-    not finite, BadValueError for different numbers of runs.
+    n is the number of depths in the file. With `allows_runs`, depths may also be (N, n) for N runs. Raises
+    UnknownNameError for a joint without a contour, ArrayError for another number of depths or values that are not
+    finite, BadValueError for different numbers of runs.
     """
     if contour is None:
         return {}
     contours_by_joint, depths_by_joint = {info.joint: info for info in source.contours}, dict[str, Array]()
-    for joint, depths in check_mapping(contour, "contour", _WANTED).items():
+    for joint, depths in check_mapping(contour, "contour", _EXPECTED_FORM).items():
         if joint not in contours_by_joint:
             hint = (
                 f"joints with a contour: {', '.join(contours_by_joint)}"
@@ -71,7 +71,7 @@ def set_contours(source: KernelSource, contour: Mapping[str, Array], values: Arr
             contour_slice = slice(info.first, info.first + info.count)
             if is_given[contour_slice].any():
                 raise BadValueError(
-                    f"the contour of {info.joint} is given twice: by addresses too", hint="give it once"
+                    f"the contour of {info.joint} is given twice: in contour and by addresses", hint="give it once"
                 )
             values[contour_slice], is_given[contour_slice] = contour[info.joint], True
 
@@ -152,7 +152,7 @@ def compute_corner_penetration(
 def compute_corner_approach(
     source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number
 ) -> Number:
-    """Return how much nearer to its wall a corner is than in the middle of the guide, m; for one or many positions.
+    """Return the approach (m) of a slider's corner to its wall, relative to the centred slider; floats or arrays.
 
     With the slider's offset o across the guide (m), its tilt φ (rad), half length a, half height b and corner radius r
     it is ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1). The signs follow from the corner's name: upper, front.

@@ -19,10 +19,10 @@ from gudgeon.model.parameters import prepare_values
 from gudgeon.model.sizes import compute_norm_weights
 
 T_END = 1.0  # s, end of a scene's run by default
-SMOOTH = 2e-4  # of the run's length: largest step
-FILM = 1.0  # largest step times the rate of a film
-CONTACT = 1.0 / 50.0  # of the duration of a contact: largest step
-IMPACT_SPEED = 0.1  # m/s, assumed for the duration of a contact
+MAX_STEP_FRACTION = 2e-4  # of the run's length: largest step
+MAX_STEP_TIMES_FILM_RATE = 1.0  # largest step times the rate of a film
+MAX_CONTACT_FRACTION = 1.0 / 50.0  # of the duration of a contact: largest step
+ASSUMED_IMPACT_SPEED = 0.1  # m/s, assumed for the duration of a contact
 
 
 def evaluate_scene_number(source: KernelSource, name: str, p: Array, default: float) -> float:
@@ -45,7 +45,7 @@ def evaluate_scene_number(source: KernelSource, name: str, p: Array, default: fl
 
 
 def evaluate_scene_end(source: KernelSource, p: Array) -> float:
-    """Return the end (s) of a scene's run with parameter values p: as the file says, or T_END. Raises BadValueError."""
+    """Return the end (s) of a scene's run with parameter values p: that of the file, or T_END. Raises BadValueError."""
     return evaluate_scene_number(source, "t_end", p, T_END)
 
 
@@ -60,7 +60,7 @@ def evaluate_end(compiled: CompiledModel, parameters: Mapping[str, float | str] 
 def evaluate_scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
     """Return the step (s) of a scene's run with rk4: the file's, or the default. Raises BadValueError.
 
-    duration: of the run (s); 0 or less stands for T_END.
+    `duration` of the run (s): T_END is used in place of values <= 0.
     """
     step = evaluate_scene_number(compiled.source, "step", p, 0.0)
     return step or estimate_default_step(compiled, p, duration if duration > 0.0 else T_END)
@@ -71,22 +71,22 @@ def estimate_default_step(compiled: CompiledModel, p: Array, t_end: float) -> fl
 
     t_end: length of the run (s). The step is at most 1e-3 s.
     """
-    bounds = [SMOOTH * t_end, 1e-3]
+    bounds = [MAX_STEP_FRACTION * t_end, 1e-3]
     mass = compute_norm_weights(compiled.source, p, compiled.mass(p))
     for joint in compiled.source.clearances:
         bodies = [compiled.source.bodies[b].index for b in (joint.first, joint.second) if b >= 0]
         inverse_mass = sum(1.0 / mass[k] + 0.25 * _find_longest_arm(compiled, p, k) ** 2 / mass[k + 2] for k in bodies)
         constants = {name: float(p[k]) for name, k in joint.constants.items()}
         if joint.film and "S" in constants:
-            bounds.append(FILM / (math.pi * constants["S"] / constants["c"] * inverse_mass))
+            bounds.append(MAX_STEP_TIMES_FILM_RATE / (math.pi * constants["S"] / constants["c"] * inverse_mass))
         if joint.dry and "K" in constants:
             # Hertz: δ_max = (5 m v²/(4K))^(2/5), contact time 2.943 δ_max/v
-            max_penetration = (1.25 * IMPACT_SPEED**2 / (inverse_mass * constants["K"])) ** 0.4
-            bounds.append(CONTACT * 2.943 * max_penetration / IMPACT_SPEED)
+            max_penetration = (1.25 * ASSUMED_IMPACT_SPEED**2 / (inverse_mass * constants["K"])) ** 0.4
+            bounds.append(MAX_CONTACT_FRACTION * 2.943 * max_penetration / ASSUMED_IMPACT_SPEED)
         if joint.dry and "spring" in constants:
-            bounds.append(CONTACT * math.pi / math.sqrt(inverse_mass * constants["spring"]))
+            bounds.append(MAX_CONTACT_FRACTION * math.pi / math.sqrt(inverse_mass * constants["spring"]))
         if joint.dry and "damper" in constants:
-            bounds.append(FILM / (inverse_mass * constants["damper"]))
+            bounds.append(MAX_STEP_TIMES_FILM_RATE / (inverse_mass * constants["damper"]))
     return min(bounds)
 
 

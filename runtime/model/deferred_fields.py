@@ -1,4 +1,4 @@
-"""Compute fields of dataclasses at their first use, for results of which most callers read a part only."""
+"""Compute fields of dataclasses at their first use (lazy evaluation), for results that callers read in part only."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Provider(Protocol):
 
 
 class _DeferredField:
-    """Compute a field at its first use. An instance that has the value does not come here: it is in its dictionary."""
+    """Compute a field at its first use: a descriptor that Python calls if the instance does not have the value."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -45,7 +45,7 @@ def defer_fields(*names: str) -> Callable[[Class], Class]:
 def make_with_deferred_fields(cls: type[Instance], values: Mapping[str, Any], provider: Provider) -> Instance:
     """Return an instance of a dataclass with the `values` of its fields; `provider` computes the others.
 
-    A field is computed at its first use, at most once in a thread. Together they must give all fields.
+    A field is computed at its first use, at most once in a thread. `values` and `provider` must cover all fields.
     """
     instance = cls.__new__(cls)
     instance.__dict__.update(values)
@@ -54,7 +54,7 @@ def make_with_deferred_fields(cls: type[Instance], values: Mapping[str, Any], pr
 
 
 def replace_fields(instance: Instance, **changes: Any) -> Instance:
-    """Return a copy of a dataclass with other values of some fields; deferred ones of the others stay deferred."""
+    """Return a copy of a dataclass instance with changed fields; other fields that are deferred stay deferred."""
     provider: Provider | None = instance.__dict__.get(_PROVIDER)
     if provider is None:
         return replace(instance, **changes)  # type: ignore[type-var]
@@ -64,9 +64,9 @@ def replace_fields(instance: Instance, **changes: Any) -> Instance:
 
 
 def find_deferred_function(instance: object, name: str) -> Callable[[], Any] | None:
-    """Return the function that computes a field which has not been computed yet; None if there is none.
+    """Return the function without arguments that computes a deferred field; None if it was computed or is not deferred.
 
-    It may also compute a cached property, which calls this function.
+    Cached properties with deferred values call this function too.
     """
     provider: Provider | None = instance.__dict__.get(_PROVIDER)
     if provider is None or name in instance.__dict__ or name not in provider.fields:

@@ -30,7 +30,8 @@ Array: TypeAlias = NDArray[np.float64]
 
 CLEARANCE_COLUMNS = CLEARANCE_COLUMN_NAMES
 MIN_CHECKED_SAMPLES = 10_000  # samples from which on the memory is checked before an evaluation
-FIRST, SOON = 256, 5e-3  # samples of the first call of C, and the time (s) of a call, so that Ctrl-C is handled soon
+# samples of the first call of C, and the intended time (s) of a call, so that Ctrl-C is handled within it
+FIRST_CHUNK_SAMPLES, MAX_CALL_TIME_S = 256, 5e-3
 # quantities that one C function of the scene computes together
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})
 BYTES_PER_RUN = 1000  # bytes, about: lists and counts of a run
@@ -49,7 +50,7 @@ class Evaluation:
     friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
     energy: Array  # (N, 2) kinetic, potential
     power: Array  # (N, 3) of drives, of force elements (but what they store), of joints with play (W)
-    drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
+    drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the constraint equations
 
 
 class MotionSeries(NamedTuple):
@@ -87,15 +88,15 @@ def evaluate(
     if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
         time = np.asarray(time + find_rounding_distance(time))
     N = len(time)
-    check = _check_matrix if N > FIRST else _convert_matrix
+    check = _check_matrix if N > FIRST_CHUNK_SAMPLES else _convert_matrix
     discrete_states = check(memory, "memory", N, None)
     if (
         compiled.n_memory or discrete_states.shape[1] > 1
-    ):  # in a scene that remembers nothing one number stands for none
+    ):  # in a scene without discrete states, one column is accepted too
         check(discrete_states, "memory", N, compiled.n_memory)
     inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", discrete_states))
     evaluation, outputs = allocate_evaluation(compiled, N, field_names)
-    failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST
+    failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST_CHUNK_SAMPLES
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))
     while first < N:
         start_time, count = perf_counter(), min(chunk_size, N - first)
@@ -108,7 +109,7 @@ def evaluate(
         if status:
             compiled.check_pivot(status, float(time[first + failed_index[0]]), p=p)
         first += count
-        chunk_size = 4 * count if perf_counter() - start_time < SOON else max(1, count // 4)
+        chunk_size = 4 * count if perf_counter() - start_time < MAX_CALL_TIME_S else max(1, count // 4)
         poll_cancellation()
     _mark_indeterminate_forces(compiled, evaluation)
     return evaluation
@@ -178,7 +179,7 @@ def evaluate_motion_series(
 
 
 def view_evaluation(compiled: CompiledModel, block: Array, n_samples: int) -> Evaluation:
-    """Return an Evaluation of so many samples whose fields are views of a block, one after the other."""
+    """Return an Evaluation of `n_samples` samples whose fields are successive views of a block (1-D)."""
     arrays, offset = list[Array](), 0
     for _, shape, width in compiled.field_shapes:
         arrays.append(block[offset : offset + n_samples * width].reshape(n_samples, *shape))
@@ -192,9 +193,9 @@ def select_evaluated_rows(evaluation: Evaluation, rows: slice | NDArray[np.intp]
 
 
 def find_rounding_distance(t: Array) -> Array:
-    """Return the distance (s) from times t within which rounding may hide on which side of a switching point t is.
+    """Return the distance (s) from times t within which rounding decides on which side of a switching point t is.
 
-    It is 32 roundings of t, at least 1e-100 s.
+    It is 32 |t| times the machine epsilon, at least 1e-100 s.
     """
     return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
@@ -217,9 +218,9 @@ def allocate_evaluation(
     if n_samples > MIN_CHECKED_SAMPLES:
         check_memory(
             float(n_samples) * compute_evaluation_bytes(compiled, requested_fields),
-            f"what follows from {n_samples} samples",
+            f"the evaluated quantities of {n_samples} samples",
         )
-    is_short = n_samples <= FIRST
+    is_short = n_samples <= FIRST_CHUNK_SAMPLES
     n_block = n_samples * sum(width for name, _, width in compiled.field_shapes if name in requested_fields)
     block = np.full(n_block if is_short else 0, np.nan)
     block_pointer, offset = compiled.pointer(block, is_written=True), 0
@@ -258,7 +259,7 @@ def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ..
 
 
 def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) -> None:
-    """Set forces in an Evaluation to NaN that redundant constraints leave undetermined.
+    """Set forces in an Evaluation to NaN, in place, if redundant constraints do not determine them.
 
     If masses are missing, all forces, energies and powers become NaN.
     """
@@ -309,7 +310,7 @@ def check_sample_memory(
     field_names: Collection[str] = (),
     max_concurrent_runs: int = 1,
 ) -> None:
-    """Raise MemoryError if the samples of so many runs do not fit into memory.
+    """Raise MemoryError if the samples of `n_runs` runs do not fit into memory.
 
     n_samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
     The states then exist for `max_concurrent_runs` runs at a time, with the `field_names` that the series need.

@@ -15,20 +15,21 @@ from numpy.typing import NDArray
 from gudgeon.language.functions import PIECEWISE
 from gudgeon.language.tree import CurveCall, iterate_calls
 from gudgeon.model.evaluation import find_rounding_distance
-from gudgeon.model.written import read_expression_trees
+from gudgeon.model.file_expressions import read_expression_trees
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
 
 JUMP_TOL = 1e-6  # relative difference of the values on both sides from which on it counts as a jump
-STEEPEST = 1e3  # a smooth change of ν between both sides may be so many times as fast as the accelerations
+# largest ratio of a smooth change of ν between both sides to the change that the accelerations give
+MAX_SMOOTH_CHANGE_RATIO = 1e3
 
 
 def may_acceleration_jump(compiled: CompiledModel) -> bool:
     """Return whether the acceleration that a drive prescribes may jump at some time.
 
-    That is so if any drive's expression contains a piecewise function or a curve.
+    It may if any drive's expression contains a piecewise function or a curve.
     """
     return any(
         call.function in PIECEWISE or isinstance(call, CurveCall)
@@ -42,8 +43,8 @@ def find_evaluation_times(
 ) -> Array:
     """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
 
-    That is so if the accelerations of drives jump at t[-1] and their rates do not. `start_time` (s): the begin of the
-    run, for a single sample after it. q, v: (N, n).
+    It is if the accelerations of drives jump at t[-1] and their rates do not. `start_time` (s): the begin of the run,
+    for a single sample after it. q, v: (N, n).
     """
     previous_time = float(t[-2]) if len(t) > 1 else start_time
     if not len(t) or not previous_time < t[-1] or not compiled.may_drive_acceleration_jump:
@@ -51,7 +52,7 @@ def find_evaluation_times(
     before, after = (float(t[-1] + sign * find_rounding_distance(t[-1])) for sign in (-2.0, 2.0))
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
     nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
-    max_smooth_change = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
+    max_smooth_change = MAX_SMOOTH_CHANGE_RATIO * float(np.abs(gamma).max(initial=0.0)) * (after - before)
     is_switching_point = (
         _has_jump(*gamma).any() and not (_has_jump(*nu) & (np.abs(nu[1] - nu[0]) > max_smooth_change)).any()
     )

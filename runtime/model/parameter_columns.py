@@ -1,7 +1,7 @@
-"""Compute the parameter values of single runs from arrays in a fixed order of names, in memory that is allocated once.
+"""Compute the parameter values of single runs from arrays in a fixed order of names, in preallocated arrays.
 
-`parameters.py` reads mappings from names to values and explains what is wrong with them. Here, names are read once, and
-each call only decides whether its values are valid.
+`parameters.py` reads mappings from names to values and explains errors. Here, names are read once, and each call only
+decides whether its values are valid.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_names
 from gudgeon.model.arrays import FLAG
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.file_expressions import describe_undefined_number, find_partial_expressions
 from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
 from gudgeon.model.sizes import find_length_indices
-from gudgeon.model.written import describe_undefined_number, find_partial_expressions
 
 MAX_DOUBLE, MIN_NORMAL = sys.float_info.max, sys.float_info.min
 
@@ -68,7 +68,8 @@ class ParameterColumns:
     def compute_row(self, x: Array, k: int) -> bool:
         """Compute row k of `p` and `p_motion` from x (n_names,), and return whether the values are valid.
 
-        They are valid if `parameters.check_parameter_values` accepts them, which explains what is wrong otherwise.
+        NaN, infinite and subnormal values are invalid; the row is then not computed. Other values are valid if
+        `parameters.check_parameter_values` accepts them; unresolved clearances are not tested here.
         """
         given = self._given_pointer
         for value, offsets in zip(x.tolist(), self._offsets, strict=True):

@@ -16,6 +16,7 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.language.argument_checks import check_mapping, shorten_value
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import RUNS_PER_CALL, Array, CompiledModel
+from gudgeon.model.file_expressions import find_undefined_runs
 from gudgeon.model.parameters import (
     RELATIONS,
     check_parameter_values,
@@ -25,7 +26,6 @@ from gudgeon.model.parameters import (
     read_parameter_value,
 )
 from gudgeon.model.sizes import find_unresolved_clearances
-from gudgeon.model.written import find_undefined_runs
 
 FLOATS = (float, np.floating)  # types that may hold NaN
 Values: TypeAlias = float | str
@@ -109,7 +109,7 @@ def read_parameter_rows(parameters: ParameterSets) -> tuple[Sequence[Mapping[str
     """
     rows, errors = _read_parameter_sets(parameters), dict[int, BadValueError]()
     if not rows:
-        raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
+        raise BadValueError("parameters is empty: expected at least one run", hint="a mapping, or {address: values}")
     if isinstance(rows, Columns):
         errors = rows.omit_nonfinite_values()
     elif len(rows) > 1:
@@ -157,7 +157,7 @@ def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -
         or any(source.slots[k].words for k in parameter_indices)
     ):
         return None
-    shape = (len(index_by_address), len(rows))  # memory of parameters that no run gives is never touched
+    shape = (len(index_by_address), len(rows))  # parameter by parameter: memory of those not given stays untouched
     given_values, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
     for k, column in zip(parameter_indices, rows.columns.values(), strict=True):
         numbers = _read_floats(column, source.slots[k])
@@ -173,7 +173,7 @@ def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -
 def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float | None:
     """Return the numbers of a column, including NaN; None if they must be read one by one.
 
-    That is so for other types than floats and for subnormal numbers. A column with one value gives one float.
+    They must be for other types than floats and for subnormal numbers. A column with one value gives one float.
     """
     if isinstance(column, ConstantColumn):
         try:
@@ -204,10 +204,9 @@ def read_each_run(
 
 
 def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
-    """Return the parameters as a list of mappings or as Columns.
+    """Return the parameters of runs as a list of mappings or as Columns, from the forms that `read_parameter_rows` has.
 
-    Accepted are those of `read_parameter_rows`. Columns of a single run become a list. Raises BadValueError for other
-    types and for columns of different lengths.
+    Columns of a single run become a list. Raises BadValueError for other types and for columns of different lengths.
     """
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)

@@ -22,22 +22,22 @@ from gudgeon.model.arrays import FLAG
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import explain_law_choice, explain_named_expression, find_word_index
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.file_expressions import describe_undefined_number, find_partial_expressions
 from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia, has_unresolved_clearance
-from gudgeon.model.written import describe_undefined_number, find_partial_expressions
 
 # a number as files have it, in ASCII digits without '_'; float() accepts more
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-# such a number where a file is sure to take it: whole parts begin with one zero at most, exponents are below 400
+# the same in a form that files always accept: whole parts begin with one zero at most, exponents are below 400
 _MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]?[0-3]?[0-9]{1,2}"
-_PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")
-# a number and a unit without the space that the file format wants between them: nothing else can be meant
-_GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
+_PLAIN_NUMBER = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")
+# a number and a unit without the space that the file format needs between them
+_NUMBER_WITH_UNIT = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # Baumgarte's gains, which only rk4 in the full formulation uses
 PARAMETER_GROUPS = {"gains": GAINS}  # one name for several parameters
 ZERO = "0.0"  # a literal zero of the file, as JSON
 MAX_GAIN = 1e150  # 1/s: its square is still a double
 # powers of ten from 1 beyond which a value makes others overflow; and how many such values are listed
-FAR, MAX_REPORTED = 60.0, 3
+MAX_DECADES, MAX_REPORTED = 60.0, 3
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
@@ -104,23 +104,23 @@ def explain_address(source: KernelSource, address: str) -> tuple[str, str]:
     key = address.rpartition(".")[2]
     if expression is not None and expression.tree == ZERO:
         return _explain_literal_zero(address, key)
-    message = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
+    message = f"{address} is a compiled expression of t or motion: it is not a parameter that can be set"
     return message, (
-        f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
-        " then set phase; overrides= of gudgeon.load compiles anew with another expression"
+        f"write a number in it as a parameter, parameters: {{phase: … deg}}, {key}: phase + …,"
+        " then set phase; overrides= of gudgeon.load compiles another expression"
     )
 
 
 def _explain_run_option(address: str) -> tuple[str, str]:
-    """Return (message, hint) for the address of a scene's `simulate`, which options of the run set.
+    """Return (message, hint) for the address of an option in a scene's `simulate`; ("", "") for others.
 
-    ("", "") for others.
+    An example is "scenes.dry.simulate.t_end"; arguments of the run replace it.
     """
     section, _, key = address.rpartition(".simulate.")
     if not section.startswith("scenes.") or key not in ("t_end", "output", "step"):
         return "", ""
-    message = f"{address} is how a run goes unless it is told otherwise, and no number of the mechanism"
-    return message, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
+    message = f"{address} is an option of runs, not a parameter of the mechanism"
+    return message, f"set it for the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
 
 
 def _explain_motion_result(source: KernelSource, address: str) -> tuple[str, str]:
@@ -131,7 +131,7 @@ def _explain_motion_result(source: KernelSource, address: str) -> tuple[str, str
     body, _, component = address.rpartition(".")
     if body not in (info.name for info in source.bodies) or component not in ("x", "y", "theta", "vx", "vy", "omega"):
         return "", ""
-    message = f"{address} is a result of the motion, and no number of the file"
+    message = f"{address} is a result of the motion, not a parameter of the file"
     is_velocity, parameter_addresses = (
         component in ("vx", "vy", "omega"),
         {parameter.address for parameter in source.slots},
@@ -156,13 +156,13 @@ def _explain_motion_result(source: KernelSource, address: str) -> tuple[str, str
 
 
 def _describe_driving_parameters(source: KernelSource, body: str) -> str:
-    """Return a text on the drives that determine how a body moves, and on their parameters; "" if no drive does.
+    """Return a text on the drives whose points or angles are on a body, and on their parameters; "" if there are none.
 
-    body "": any drive counts.
+    With body "", all drives count. Example: "motor drives crank: its motion is in drives.motor.value, here by omega…".
     """
     sentences = []
     for part in source.parts:
-        ends = part.ends[:1] if part.kind in ("angle", "coordinate") else part.ends  # then a reference, which it leaves
+        ends = part.ends[:1] if part.kind in ("angle", "coordinate") else part.ends  # without the reference body
         if part.section != "drives" or body and body not in (end.rpartition(".")[0] for end in ends):
             continue
         address = f"drives.{part.name}.value"
@@ -170,8 +170,8 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
         parameter_names = dict.fromkeys(
             name.path for tree in values for name in iterate_names(tree) if name.path != "t"
         )
-        moved = body or "the linkage, which has no freedom left"
-        sentences.append(f"{part.name} drives {moved}: how it moves is in {address}")
+        moved = body or "the linkage, which has no degree of freedom"
+        sentences.append(f"{part.name} drives {moved}: its motion is in {address}")
         sentences[-1] += (
             f", here by {', '.join(parameter_names)}: set that"
             if parameter_names
@@ -188,7 +188,7 @@ def _explain_missing_eccentricity(source: KernelSource, address: str) -> tuple[s
     if (section, subsection) != ("start", "play") or joint not in is_slider_by_joint or has_start:
         return "", ""
     example = f"start: {{play: {{{joint}: {{{'offset: 0 mm' if is_slider_by_joint[joint] else 'e: [0 mm, 0 mm]'}}}}}}}"
-    return f"{address}: the file's start does not say where {joint} begins", f"write {example}, then it can be set"
+    return f"{address}: the file's start gives no position of {joint}", f"write {example}, then it can be set"
 
 
 def _explain_single_material(source: KernelSource, address: str) -> tuple[str, str]:
@@ -197,9 +197,9 @@ def _explain_single_material(source: KernelSource, address: str) -> tuple[str, s
     if not key.endswith("material") or not any(parameter.address.startswith(f"{owner}.") for parameter in source.slots):
         return "", ""
     message = (
-        f"{address}: the file has only one material with the numbers that are wanted there, and no other to choose"
+        f"{address}: the file has only one material with the values that are needed there, so none can be selected"
     )
-    return message, "write a second one among its materials; their numbers can be set, materials.<name>.E"
+    return message, "write a second one among its materials; values of materials can be set: materials.<name>.E"
 
 
 def read_parameter_value(value: float | str, parameter: RuntimeParameter) -> float:
@@ -233,7 +233,7 @@ def parse_plain_number(text: str) -> float | None:
 
     Spaces around it are ignored.
     """
-    match = _PLAIN.fullmatch(text.strip(" "))
+    match = _PLAIN_NUMBER.fullmatch(text.strip(" "))
     if match is None:
         return None
     value = float(match[0])
@@ -248,7 +248,7 @@ def insert_space_before_unit(text: str) -> str:
 
     Other texts are returned without the spaces around them.
     """
-    match = _GLUED.fullmatch(text.strip())
+    match = _NUMBER_WITH_UNIT.fullmatch(text.strip())
     return f"{match[1]} {match[2]}" if match else text.strip()
 
 
@@ -263,7 +263,7 @@ def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str
 
 
 def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> tuple[Array, Array]:
-    """Return the checked values p of given parameters and mask, and those without Baumgarte gains, (n_p,) each.
+    """Return the checked values p for given parameters and mask, and those without Baumgarte gains, (n_p,) each.
 
     The second are for methods that project; see `prepare_without_baumgarte`. Raises BadValueError.
     """
@@ -273,9 +273,9 @@ def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: A
 
 @cache_by_values
 def _prepare_run(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
-    """Return the checked values p of a run and those without Baumgarte gains, (2, n_p), once for equal given values.
+    """Return the checked values p of a run and those without Baumgarte gains, (2, n_p), cached for equal values.
 
-    They are not to be changed.
+    Callers must not change them. Raises BadValueError for values that violate a condition.
     """
     pairs, masks = np.array([given_values, given_values]), np.array([is_given, is_given], FLAG)
     gain_indices = _find_gain_indices(compiled.source)
@@ -302,7 +302,7 @@ def _find_gain_indices(source: KernelSource) -> list[int]:
 
 
 def has_valid_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> bool:
-    """Return whether the values p of a run surely pass `check_parameter_values`, by a few comparisons."""
+    """Return whether the values p (n_p,) of a run pass `check_parameter_values`, by fast comparisons without texts."""
     lower, upper, relations = collect_conditions(source)
     if b"\0" in ((lower <= p) & (p <= upper)).tobytes():  # quicker than all()
         return False
@@ -343,11 +343,11 @@ def collect_conditions(source: KernelSource) -> tuple[Array, Array, list[Relatio
 def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
     """Raise BadValueError if the values p of a run violate a condition or are not finite.
 
-    Conditions are tested first, then parameters, derived values, undefined expressions and clearances. `is_given`: a
-    mask of the parameters that are given, so that they do not follow others.
+    Conditions are tested first, then parameters, derived values, undefined expressions and clearances. `is_given`: mask
+    of the given parameters, whose expressions in the file are not used.
     """
     value_by_address = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
-    for condition in list_conditions(source):  # first: sides that make no triangle leave a point that is NaN
+    for condition in list_conditions(source):  # first: lengths that form no triangle give a point of NaN
         bound = (
             sum(value_by_address[address] for address in condition.addresses)
             if condition.addresses
@@ -394,7 +394,7 @@ def _format_overflow_message(
     extreme_parameters = [
         parameter
         for parameter in source.slots
-        if not parameter.words and abs(math.log10(abs(value_by_address[parameter.address]) or 1.0)) > FAR
+        if not parameter.words and abs(math.log10(abs(value_by_address[parameter.address]) or 1.0)) > MAX_DECADES
     ]
     message = ", ".join(
         f"{parameter.address} is {value_by_address[parameter.address]:g} {parameter.unit}".rstrip()
@@ -414,7 +414,7 @@ def list_conditions(source: KernelSource) -> tuple[Condition, ...]:
     A velocity floor must be positive, also where the file has no condition for it.
     """
     gains = [parameter.address for parameter in source.slots if parameter.address.startswith("baumgarte.")]
-    gain_limits = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MAX_GAIN, "its square is no number"))
+    gain_limits = ((">=", 0.0, "a negative gain increases drift"), ("<=", MAX_GAIN, "its square overflows"))
     floor_addresses = {parameter.address for parameter in source.slots if parameter.address.endswith(".velocity_floor")}
     unconditioned_floors = sorted(floor_addresses - {condition.address for condition in source.conditions})
     floor_conditions = (
@@ -465,9 +465,9 @@ def _explain_literal_zero(address: str, key: str) -> tuple[str, str]:
 
     `key` is its last part.
     """
-    message = f"{address} is 0, written so or left out, and stands in no equation: it is no number that can be set"
+    message = f"{address} is 0 in the file or left out, and in no equation: it is not a parameter that can be set"
     hint = f"write a parameter there (parameters: {{own: 0 …}} with its unit, {key}: own) and set that"
-    return message, f"{hint}; or write another number than 0 there, which can be set, to 0 too"
+    return message, f"{hint}; or write a number other than 0 there, which can be set, also to 0"
 
 
 def _make_unknown_parameter_error(name: str, source: KernelSource) -> UnknownNameError:
@@ -480,7 +480,7 @@ def _make_unknown_parameter_error(name: str, source: KernelSource) -> UnknownNam
         return UnknownNameError(message, None, hint)
     section, _, coordinate = name.partition(".")[2].partition(".")
     if section in ("guess", "set", "rates") and name.startswith("start.") and coordinate.count(".") == 1:
-        hint = f"expected one that the file's start has; gudgeon.load(..., overrides={{{name!r}: ...}}) brings it in"
+        hint = f"expected a coordinate in the file's start; gudgeon.load(..., overrides={{{name!r}: ...}}) adds it"
         return UnknownNameError(f"start.{section} of the file does not have {coordinate}", None, hint)
     similar_addresses = find_near_names(name, list_addresses(source))
     hint = (
@@ -493,6 +493,6 @@ def _make_unknown_parameter_error(name: str, source: KernelSource) -> UnknownNam
 
 
 def parse_typed_number(text: str) -> float | str:
-    """Return a typed number: a float in SI, or text with a space before its unit ("0.5 mm" for "0.5mm")."""
+    """Parse a typed number: return a float in SI, or a text with a space before its unit ("0.5 mm" for "0.5mm")."""
     number = parse_plain_number(text)
     return insert_space_before_unit(text) if number is None else number

@@ -18,9 +18,9 @@ from gudgeon.errors import AuditError
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
 
-SHARE = 1e-6  # of the largest value of an array: stored values have seven digits
+STORED_DIGITS_TOL = 1e-6  # of the largest value of an array: stored values have seven digits
 # fields of an Evaluation that are compared
-EVALUATED = ("a", "multipliers", "reactions", "torques", "series", "energy", "power")
+COMPARED_FIELDS = ("a", "multipliers", "reactions", "torques", "series", "energy", "power")
 
 
 def check_reference_values(compiled: CompiledModel) -> None:
@@ -67,7 +67,7 @@ def _compare_parameter_values(compiled: CompiledModel, stored_values: Sequence[f
     """
     expected = np.array(stored_values, dtype=float)
     is_known = np.isfinite(expected)
-    if not (np.abs(p - expected)[is_known] <= SHARE * np.abs(expected[is_known]) + 1e-300).all():
+    if not (np.abs(p - expected)[is_known] <= STORED_DIGITS_TOL * np.abs(expected[is_known]) + 1e-300).all():
         for k in np.flatnonzero(is_known).tolist():
             _compare_values(compiled, f"parameter {k}", [stored_values[k]], p[k : k + 1], 0.0)
 
@@ -80,7 +80,7 @@ def _evaluate_library(compiled: CompiledModel, state: dict[str, Any], p: Array) 
     t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])
     discrete_states = np.array([np.nan if x is None else x for x in state["memory"]], dtype=float)
     evaluation = compiled.evaluate([t], [q], [v], discrete_states[None, :], p, lambda: None)
-    values = {name: getattr(evaluation, name) for name in EVALUATED}
+    values = {name: getattr(evaluation, name) for name in COMPARED_FIELDS}
     values["clearance"] = evaluation.clearance[:, :, :2]
     values["phi"], values["nu"] = compiled.closed_phi(t, q, p), compiled.closed_nu(t, q, p)
     values["gamma"], values["mass"] = compiled.closed_gamma(t, q, v, p), compiled.mass(p)
@@ -101,12 +101,12 @@ def _compare_values(
     )
     scale = np.abs(expected[is_known]).max(initial=0.0)
     differences = np.abs(values[is_known] - expected[is_known])
-    if (differences <= SHARE * scale + 1e-300).all():
+    if (differences <= STORED_DIGITS_TOL * scale + 1e-300).all():
         return
     k = int(np.flatnonzero(is_known)[np.nan_to_num(differences, nan=np.inf).argmax()])
     mechanism, scene = compiled.source.mechanism, compiled.source.scene
     raise AuditError(
         f"the compiled library of {mechanism}/{scene} is wrong: {name}[{k}] is {values[k]:.7g}, expected"
-        f" {expected[k]:.7g}\n  gudgeon.load(…, regenerate=True) or --regenerate compiles it anew",
+        f" {expected[k]:.7g}\n  gudgeon.load(…, regenerate=True) or --regenerate compiles it again",
         t,
     )

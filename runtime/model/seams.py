@@ -8,23 +8,23 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
+from gudgeon.contract.kernel_source import ExpressionInfo, KernelSource
 from gudgeon.language.curves import Curve
 from gudgeon.language.tree import Call, CurveCall, from_json, iterate_curve_calls, iterate_names
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import evaluate_at_times
+from gudgeon.model.file_expressions import evaluate_at_times
 
-SAMPLES = 1025  # times at which the run is tested for passing the end of a period
-SAME = 1e-9  # relative difference up to which derivatives count as equal
+N_TEST_TIMES = 1025  # times at which the run is tested for passing the end of a period
+DERIVATIVE_TOL = 1e-9  # relative difference up to which derivatives count as equal
 _ORDERS = ("value", "slope", "second derivative")
-_SO = ("it", "its rate", "its acceleration")  # quantities of the drive
+_DRIVE_QUANTITIES = ("it", "its rate", "its acceleration")  # quantities of the drive
 
 
 def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
     """Yield a note on each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1.
 
-    p: parameter values of the run; t0, t1: begin and end of the run (s). The period must not depend on time.
+    p: parameter values of the run; t0, t1: begin and end of the run (s). Periods that depend on time give no note.
     """
     for info in list_periodic_drives(source):
         for call in iterate_curve_calls(from_json(json.loads(info.tree))):
@@ -35,22 +35,22 @@ def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: floa
 
 
 @cache_by_values
-def list_periodic_drives(source: KernelSource) -> tuple[WrittenInfo, ...]:
+def list_periodic_drives(source: KernelSource) -> tuple[ExpressionInfo, ...]:
     """Return the expressions of drives with a curve and `mod`."""
     drives = (info for info in source.written if info.address.startswith("drives."))
     return tuple(info for info in drives if '"curve"' in info.tree and '"mod"' in info.tree)
 
 
 def _has_restart(source: KernelSource, p: Array, mod_call: Call, t0: float, t1: float) -> bool:
-    """Return whether mod restarts at a time t0 < t < t1, for a period that does not depend on time.
+    """Return whether mod restarts at a time t0 < t < t1; False for a period that depends on time.
 
-    Without an end (t1 = ∞) it is assumed to restart. The run is sampled at SAMPLES times.
+    Without an end (t1 = ∞) it is assumed to restart. The quotient is sampled at N_TEST_TIMES times.
     """
     dividend, period = mod_call.arguments
     if any(name.path == "t" for name in iterate_names(period)):
         return False
     with np.errstate(all="ignore"):
-        times = np.linspace(t0, t1, SAMPLES)[1:-1] if math.isfinite(t1) else np.zeros(0)
+        times = np.linspace(t0, t1, N_TEST_TIMES)[1:-1] if math.isfinite(t1) else np.zeros(0)
         quotients = np.floor(
             evaluate_at_times(source, p, dividend, times) / evaluate_at_times(source, p, period, times)
         )
@@ -63,12 +63,12 @@ def _describe_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
     period: of `mod`, in the unit (SI) of the curve's argument; drive: the drive's name.
     """
     curve: Curve = call.curve
-    for order, (derivative_name, drive_quantity) in enumerate(zip(_ORDERS, _SO, strict=True)):
+    for order, (derivative_name, drive_quantity) in enumerate(zip(_ORDERS, _DRIVE_QUANTITIES, strict=True)):
         end, begin = float(curve.evaluate(period, order)), float(curve.evaluate(0.0, order))
         largest_value = float(np.abs(curve.evaluate(np.array(curve.x), order)).max())
-        if not abs(end - begin) <= SAME * largest_value and math.isfinite(end + begin):
+        if not abs(end - begin) <= DERIVATIVE_TOL * largest_value and math.isfinite(end + begin):
             yield (
-                f"drive {drive}: where mod begins curve {curve.name} anew its {derivative_name} jumps from {end:.4g} to"
+                f"drive {drive}: where mod restarts curve {curve.name}, its {derivative_name} jumps from {end:.4g} to"
                 f" {begin:.4g} (SI), and so does {drive_quantity}: {_format_remedy(curve, period, order)}"
             )
             return
@@ -76,11 +76,11 @@ def _describe_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
 
 def _format_remedy(curve: Curve, period: float, order: int) -> str:
     """Return the remedy, as text, for a jump of the curve's derivative of the given order (0: of its value)."""
-    is_curve_length = abs(period - (curve.x[-1] - curve.x[0])) <= SAME * abs(period) and abs(curve.x[0]) <= SAME * abs(
-        period
-    )
+    is_curve_length = abs(period - (curve.x[-1] - curve.x[0])) <= DERIVATIVE_TOL * abs(period) and abs(
+        curve.x[0]
+    ) <= DERIVATIVE_TOL * abs(period)
     if not is_curve_length:
-        return f"mod's period is {period:.6g}, and the curve goes {curve.range_text}"
+        return f"mod's period is {period:.6g}, and the curve is defined {curve.range_text}"
     if not order:
         return "give it a last point whose y is that of the first, and ends: periodic"
     return f"ends: periodic in curves.{curve.name} makes it smooth there"

@@ -15,8 +15,9 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.contours import compute_min_clearances, find_contour, find_contour_parameters
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
-SMALL_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
-MIN_RELATIVE_CLEARANCE = 64 * sys.float_info.epsilon  # of the size: from ten roundings down contacts are detected twice
+MIN_RELATIVE_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
+# of the size: with clearances below ten roundings, contacts are detected twice
+MIN_RELATIVE_CLEARANCE = 64 * sys.float_info.epsilon
 
 
 def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
@@ -36,7 +37,7 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
 
 
 def compute_size_of_values(index_pairs: Sequence[tuple[int, int]], values: Sequence[float]) -> float:
-    """Return what `compute_mechanism_sizes` does for one run, bit for bit, without NumPy's time for short arrays.
+    """Return the size (m) of the mechanism for one run, bit for bit as `compute_mechanism_sizes`, but with floats.
 
     index_pairs: those of `find_size_indices`; values: parameter values (n_parameters + n_derived,).
     """
@@ -57,12 +58,12 @@ def find_length_indices(source: KernelSource) -> NDArray[np.intp]:
 
 
 def select_lengths(source: KernelSource, p: Array) -> Array:
-    """Return the values of one run on which the size and the clearances depend, as a key for functions of them."""
+    """Return the values of one run on which the size and the clearances depend, for caches with them as keys."""
     return p.take(find_length_indices(source))
 
 
 def spread_lengths(source: KernelSource, lengths: Array) -> Array:
-    """Return parameter values (n_p,) with these `select_lengths`; all others are NaN."""
+    """Return parameter values (n_p,) from the result of `select_lengths`; all others are NaN."""
     p = np.full(len(source.slots) + len(source.derived), np.nan)
     p[find_length_indices(source)] = lengths
     return p
@@ -74,12 +75,12 @@ def compute_size(source: KernelSource, p: Array) -> float:
 
 
 def has_unresolved_clearance(source: KernelSource, p: Array) -> bool:
-    """Return whether a clearance of one run is too small for doubles."""
+    """Return whether a clearance of one run is below MIN_RELATIVE_CLEARANCE of the mechanism's size."""
     return _measure_lengths(source, select_lengths(source, p))[1]
 
 
 def is_clearance_unresolved(source: KernelSource, p: Array, size: float) -> bool:
-    """Return whether the smallest clearance of one run is too small for doubles at the mechanism's size (m)."""
+    """Return whether a clearance of one run is below MIN_RELATIVE_CLEARANCE of `size`, the mechanism's size (m)."""
     clearances = (
         compute_min_clearances(source, p).tolist()
         if source.contours
@@ -90,7 +91,7 @@ def is_clearance_unresolved(source: KernelSource, p: Array, size: float) -> bool
 
 @cache_by_values
 def _measure_lengths(source: KernelSource, lengths: Array) -> tuple[float, bool]:
-    """Return the size (m), and whether a clearance is too small for doubles, once for equal lengths."""
+    """Return the size (m), and whether a clearance is below MIN_RELATIVE_CLEARANCE of it; cached for equal lengths."""
     p = spread_lengths(source, lengths)
     size = compute_size_of_values(find_size_indices(source), p.tolist())
     return size, is_clearance_unresolved(source, p, size)
@@ -103,7 +104,7 @@ def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     not changed.
     """
     weights = np.array(mass)
-    lower_limit = SMALL_INERTIA * weights[1::3] * compute_size(source, p) ** 2
+    lower_limit = MIN_RELATIVE_INERTIA * weights[1::3] * compute_size(source, p) ** 2
     weights[2::3] = np.maximum(weights[2::3], lower_limit)
     return weights
 
@@ -112,8 +113,8 @@ def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
 def find_size_indices(source: KernelSource) -> list[tuple[int, int]]:
     """Return a pair (larger index, smaller index) into p for the coordinates of each point and for each joint length.
 
-    A pair of a point is in this order whichever of x and y comes first. −1 stands for a coordinate that is 0; joint
-    lengths are (index, −1). Points without any coordinate in p are left out.
+    Indices of x and y are in this order, whichever is larger. −1 is the index of a coordinate that is 0; joint lengths
+    are (index, −1). Points without any coordinate in p are left out.
     """
     index_pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
     lengths = [parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.slots]
@@ -151,10 +152,9 @@ def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
             c = float(p[joint.clearance]) + (0.0 if depths is None else float(depths.min()))
             phrase = " at its contour" * (depths is not None)
             return (
-                f"the clearance of {joint.name} is {c:g} m{phrase}, below what doubles tell apart at the"
+                f"the clearance of {joint.name} is {c:g} m{phrase}, below the rounding of doubles at the"
                 f" mechanism's size ({size:.3g} m)\n  expected {MIN_RELATIVE_CLEARANCE * size:.2g} m at "
-                "least; leave the joint"
-                " out of the scene's play for none"
+                "least; for no clearance, leave the joint out of the scene's play"
             )
     return ""
 

@@ -55,7 +55,11 @@ class RunSettings(NamedTuple):
 def check_run_settings(
     source: KernelSource, method: Any, rtol: Any, has_step: bool, horizon: Any, stop: Any, audit: Any
 ) -> RunSettings:
-    """Return the checked arguments of `Simulation.simulate`; `has_step`: whether a step is given. Raises InputError."""
+    """Check the arguments of `Simulation.simulate` that depend on the scene only, and return them.
+
+    `has_step`: whether a step is given. If the method needs another variant of the scene, or if dof < 0, method and
+    tolerance are not checked; rtol is then NaN. Raises InputError.
+    """
     flags = check_flag(horizon, "horizon"), check_flag(stop, "stop"), parse_audit_level(audit)
     check_text(method, "method")
     if (method in driver.NAMES and source.formulation != "full") or find_required_variant(source, method):
@@ -69,7 +73,7 @@ def check_run_settings(
 def integrate_run(problem: Problem) -> Trajectory:
     """Integrate one run by its method, in C or Python, and return its trajectory.
 
-    Raise KeyboardInterrupt if it has no sample.
+    Ctrl-C ends the run; its trajectory up to then is returned. Raises KeyboardInterrupt if it has no sample.
     """
     return single_run.integrate_problem(problem, PYTHON_TIME_LOOPS.get(problem.method))
 
@@ -108,8 +112,8 @@ def compute_output_times(
     """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample.
 
     The times are a new array that begins with t0. They follow from `output`: times, or a number of intervals to t_end.
-    Without either, those of the file hold, with parameter values `p`. Raises BadValueError, MemoryError. Both are None
-    if they are not given.
+    If `t_end` or `output` is None, the value of the file holds, with parameter values `p`. Raises BadValueError,
+    MemoryError.
     """
     if type(t_end) is float and type(output) is int and 1 <= output <= MAX_CACHED_INTERVALS:
         times = _compute_few_times(source, t0, t_end, output)
@@ -142,9 +146,10 @@ def compute_output_times(
 
 @cache_by_values
 def _compute_few_times(source: KernelSource, t0: float, end: float, intervals: int) -> Array | None:
-    """Return the ends (s) of a few equal intervals from t0 to `end`, not to be changed.
+    """Return the ends (s) of at most MAX_CACHED_INTERVALS equal intervals from t0 to `end`; callers must copy them.
 
-    None if they may not pass the checks of `compute_output_times`. `source` owns the cache.
+    Return None if the run may be too short or end too late, so that `_check_duration` must decide. `source` is used as
+    the owner of the cache only.
     """
     min_duration = max(4 * MIN_ROUNDINGS * math.ulp(max(abs(t0), abs(end))), MIN_DURATION_S)
     return _divide_evenly(t0, end, intervals) if min_duration < end - t0 and end <= MAX_END_TIME_S else None
@@ -190,7 +195,7 @@ def _check_t_end_matches_output(t_end: float | None, last_time: float, relative_
     if t_end is not None and not abs(t_end - last_time) <= max(1e-9, 0.5 * relative_tolerance) * max(
         abs(t_end), abs(last_time)
     ):
-        hint = "leave out t_end, for the times say when the run ends, or let them end there"
+        hint = "leave out t_end (the last time of output ends the run), or end the times of output at t_end"
         raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last_time:.12g} s", hint=hint)
 
 
@@ -205,13 +210,16 @@ def _check_duration(message_prefix: str, t0: float, end: float, min_roundings: i
     if 0.0 < end - t0 < min_duration:
         raise BadValueError(
             f"{message_prefix} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s:"
-            f" expected {min_duration:.3g} s at least, or numbers have no room for the times between",
+            f" expected {min_duration:.3g} s at least: sample times in a shorter run are equal after rounding",
             hint="times are in s",
         )
 
 
 def find_required_variant(source: KernelSource, method: str) -> str:
-    """Return the name of the variant that a scene must be derived as for a method; "" if its library suffices."""
+    """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method.
+
+    The variant is STAGES for methods with implicit stages, or the name of a Taylor method.
+    """
     if method in STAGED:
         return "" if source.stages or source.reason_without_jacobian else STAGES
     return method if method in SMOOTH and not source.taylor else ""
@@ -226,8 +234,8 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
     dof = source.degrees_of_freedom
     if dof < 0:
         raise AssemblyError(
-            f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
-            "  remove a drive or a joint; `gudgeon check -v` lists the rows"
+            f"{-dof} constraint equations more than coordinates: constraints are redundant or contradict each other\n"
+            "  remove a drive or a joint; `gudgeon check -v` lists the constraint equations"
         )
     fitting_methods = source.methods
     if KINEMATIC not in fitting_methods and not source.is_explicit:
@@ -235,7 +243,7 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
             *fitting_methods,
             ADAPTIVE,
             *(() if source.states else driver.NAMES),
-        )  # peers integrate no internal states
+        )  # reference solvers integrate no internal states
     if source.taylor:
         fitting_methods = (*fitting_methods, *SMOOTH)
     if method == "auto":
@@ -247,14 +255,17 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
             else ADAPTIVE
         )
     if method not in METHODS:
-        offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
+        offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # internal name of the method of auto
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting_methods:
         reason = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
         if source.rigid:
             reason = source.reason_without_jacobian
         elif source.states:
-            reason = f"a law has an internal state ({next(filter(None, source.states))}), which peers do not integrate"
+            reason = (
+                f"a law has an internal state ({next(filter(None, source.states))}),"
+                " which reference solvers do not integrate"
+            )
         *others, last = source.methods
         fit = f"{', '.join(others)} and {last} fit it" if others else f"{last} fits it"
         raise BadValueError(f"method {method!r} does not fit: {reason}; use auto ({fit})")
@@ -264,8 +275,8 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
 def evaluate_step(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
     """Return the fixed step (s) of a run of `duration` (s); infinity where the method controls its step.
 
-    Without the argument `step`, rk4 takes the step of the file or a default. Raises BadValueError unless it is
-    positive. `step` None: not given.
+    If `step` is None, rk4 uses the step of the file or a default. Kinematic analysis ignores the step, but checks it.
+    Raises BadValueError for a step that is not positive.
     """
     if step is None and method != "rk4":
         return math.inf

@@ -31,19 +31,21 @@ SAMPLE_POSITIONS = np.sort(
 SHORT_RUN_POSITIONS = SAMPLE_POSITIONS[::2]  # the same in a run with few right-hand sides
 # allowed error of each check, relative to the largest terms
 LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}
-BODY = {"body": 1e-9}  # the same for the equations of single bodies, relative to the largest force or moment
+BODY_LIMIT = {"body": 1e-9}  # the same for the equations of single bodies, relative to the largest force or moment
 MAX_CALLS_OF_SHORT_RUN = 500  # right-hand sides: in a shorter run, fewer samples are checked to save time
 MIN_CALLS_OF_LONG_RUN = 2000  # right-hand sides: in a longer run, the equations of single bodies are checked too
-NOT_FINITE = 2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
-ENERGY = 1e3  # times rtol times the root of the number of steps: allowed residual relative to the energy throughput
+WORST_OF_UNDEFINED = 2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
+# times rtol times the root of the number of steps: allowed residual relative to the energy throughput
+ENERGY_TOL_FACTOR = 1e3
 MIN_ENERGY_TOL = 1e-6  # smallest allowed residual, relative to the energy throughput
 MIN_SAMPLES = 20  # samples: with fewer, the energy throughput is not known
-AT_REST = 1e-9  # of the speed that crosses the mechanism during the run: slower motion has an energy of rounding size
+# of the speed that crosses the mechanism during the run: slower motion has an energy of rounding size
+REST_SPEED_TOL = 1e-9
 MIN_WORK_J = 1e-250  # J: smaller works have no reliable digits
-FORCE = 1e-6  # of a joint's largest force: allowed force of an open joint
+OPEN_FORCE_TOL = 1e-6  # of a joint's largest force: allowed force of an open joint
 # allowed distance of the first sample from the start: of the size, and of the largest speed
-START, START_RATES = 1e-9, 1e-6
-PEAK = 1e-2  # of the largest force of its contacts: allowed excess of a joint's peak force
+START_TOL, START_RATES_TOL = 1e-9, 1e-6
+PEAK_EXCESS_TOL = 1e-2  # of the largest force of its contacts: allowed excess of a joint's peak force
 
 
 def parse_audit_level(audit: bool | str) -> int:
@@ -59,7 +61,7 @@ def parse_audit_level(audit: bool | str) -> int:
 
 
 class SampleAudit:
-    """Audit the samples of a run, which are added block by block with what was evaluated there.
+    """Audit the samples of a run, which are added block by block with their evaluated quantities.
 
     Without an audit (`problem.audit` is 0) or without samples, nothing is checked.
     """
@@ -75,15 +77,15 @@ class SampleAudit:
             if not joint.film and joint.name not in self.source.rigid
         ]
         self.contact_forces = [_ContactForces() for _ in self.joints]
-        self.samples = draw_samples(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
+        self.samples = select_audit_samples_of_run(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
         self.drawn: list[Evaluation] = []  # the evaluation of `samples`
         self.largest_energy = 0.0  # J
         self.first_undefined: float | None = None  # s, first sample at which an evaluated result is not finite
 
     def add_samples(self, first: int, evaluation: Evaluation) -> None:
-        """Audit the next samples, of which the run's sample `first` is the first.
+        """Add the next block of samples, which begins with sample `first` of the run, to the maxima of the checks.
 
-        Nothing is done if the audit is off.
+        The evaluation of the pseudo-random samples in the block is stored. Nothing is done if the audit is off.
         """
         if not self.is_on:
             return
@@ -105,7 +107,10 @@ class SampleAudit:
             self.first_undefined = None if row is None else float(self.trajectory.t[first + row])
 
     def _add_contact_forces(self, first: int, evaluation: Evaluation) -> None:
-        """Add the contact forces of joints without a film and without rigid contact at the next samples."""
+        """Update the maxima of contact forces by the next samples, which begin with sample `first` of the run.
+
+        Joints with a film or a rigid contact are left out. A sample is outside contacts if its discrete state is NaN.
+        """
         memory = self.trajectory.memory[first : first + len(evaluation.a)]
         clearance, t_first = evaluation.clearance, float(self.trajectory.t[first])
         if not clearance[:, :, :2].any():
@@ -140,7 +145,7 @@ class SampleAudit:
             findings.append(
                 Finding("finite", 0.0, float(trajectory.t[0]), "")
                 if t is None
-                else Finding("finite", NOT_FINITE, t, "")
+                else Finding("finite", WORST_OF_UNDEFINED, t, "")
             )
         left_out = list_checks_left_out(source, problem.method)
         findings += [finding for finding in self._check_random_samples(size) if finding.check not in left_out]
@@ -149,20 +154,21 @@ class SampleAudit:
     def _check_contact_forces(self) -> Iterator[Finding]:
         """Yield findings on the contact forces of joints without a film and without rigid contact.
 
-        At samples outside contacts the force must be zero. The peak of a joint must equal that of its listed contacts.
+        At samples outside contacts the force must be zero. The peak force of a joint must not exceed the largest peak
+        of its recorded contacts. The peak is not checked if the run begins or ends within a contact.
         """
         trajectory = self.trajectory
         for k, forces in zip(self.joints, self.contact_forces, strict=True):
             name, peak = self.source.clearances[k].name, float(trajectory.peaks[k, PEAK_F])
             largest = max(peak, forces.largest)
-            yield Finding("sample", forces.free / max(FORCE * largest, 1e-300), forces.t_free, name)
+            yield Finding("sample", forces.free / max(OPEN_FORCE_TOL * largest, 1e-300), forces.t_free, name)
             begins_free = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
             if not (peak > forces.touching and begins_free):
                 continue
             contacts = trajectory.impacts[trajectory.impacts["joint"] == k]
             if np.isfinite(contacts["t_off"]).all():
                 listed = float(contacts["F_peak"].max(initial=0.0))
-                over = (largest - listed) / (PEAK * max(listed, 1e-300))
+                over = (largest - listed) / (PEAK_EXCESS_TOL * max(listed, 1e-300))
                 yield Finding("peak", max(over, 0.0), float(trajectory.peaks[k, PEAK_t]), name)
 
     def _check_random_samples(self, size: float) -> tuple[Finding, ...]:
@@ -179,32 +185,35 @@ class SampleAudit:
         compiled.lib.gudgeon_audit_samples(len(samples), *given, size, compiled.pointer(errors, is_written=True))
         limits, body = LIMITS, ""
         if problem.audit > 1 or trajectory.counts.right_hand_sides > MIN_CALLS_OF_LONG_RUN:
-            residuals = compute_newton_euler_residuals(compiled, problem.p, q, self._join_drawn_rows())
-            errors, limits = np.column_stack([errors, residuals.max(axis=1)]), LIMITS | BODY
+            residuals = compute_newton_euler_residuals(compiled, problem.p, q, self._join_drawn_evaluations())
+            errors, limits = np.column_stack([errors, residuals.max(axis=1)]), LIMITS | BODY_LIMIT
             body = compiled.source.bodies[int(residuals.max(axis=0).argmax())].name
         times, findings = t.tolist(), []
         for (check, limit), values in zip(limits.items(), errors.T.tolist(), strict=True):
-            finite = [value if math.isfinite(value) else 0.0 for value in values]  # others are of another check
+            finite = [value if math.isfinite(value) else 0.0 for value in values]  # the check "finite" finds others
             worst = max(finite)
-            findings.append(Finding(check, worst / limit, times[finite.index(worst)], body if check in BODY else ""))
+            findings.append(
+                Finding(check, worst / limit, times[finite.index(worst)], body if check in BODY_LIMIT else "")
+            )
         return tuple(findings)
 
-    def _join_drawn_rows(self) -> Evaluation:
-        """Return the evaluation of the drawn samples."""
+    def _join_drawn_evaluations(self) -> Evaluation:
+        """Return the evaluation of all pseudo-random samples, joined from the blocks of `add_samples`."""
         if len(self.drawn) == 1:
             return select_evaluated_rows(self.drawn[0], self.samples)
         return Evaluation(*map(np.concatenate, zip(*(vars(one).values() for one in self.drawn), strict=True)))
 
 
 def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Array) -> NDArray[np.bool_]:
-    """Return a mask (n,) of runs of which `start.set` and the computed start (n, 2 n_q) may differ by a finding.
+    """Return a mask (n,) of runs whose computed start differs from the file's `start.set` by more than START_TOL.
 
-    Whole turns count as differences here. Shapes: parameter values p (n, …), mechanism sizes (n,) in m.
+    Whole turns count as differences here, so a run may be reported without a fault. Shapes: parameter values p (n, …),
+    `start` (n, 2 n_q), mechanism sizes (n,) in m.
     """
     off = np.zeros(len(p))
     for k, given in list_given_coordinates(source):
         off = np.maximum(off, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
-    return np.asarray(off > START * size)
+    return np.asarray(off > START_TOL * size)
 
 
 def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
@@ -213,10 +222,10 @@ def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
 
 
 def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -> Iterator[Finding]:
-    """Yield a finding on the first sample: its distance from the computed start, and that of the start from the file's.
+    """Yield a finding on the first sample: its difference from the computed start, and that of the start from the file.
 
     Yields nothing for resumed runs, whose states may violate the constraints, and with rigid contacts, which may change
-    the start. `size`: that of the mechanism (m).
+    the start. `size`: of the mechanism (m).
     """
     if problem.state is not None or problem.compiled.source.rigid:
         return
@@ -225,18 +234,19 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
     far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
     off = max(off, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
-    worst = max(off / (START * (size + far)), slower / max(START_RATES * fast, 1e-300))
+    worst = max(off / (START_TOL * (size + far)), slower / max(START_RATES_TOL * fast, 1e-300))
     yield Finding("start", worst, float(trajectory.t[0]), "")
 
 
 def compute_allowed_start_error(source: KernelSource, p: Array, q: Array, v: Array) -> Array:
-    """Return by how much q and v (2, n) of the first sample may differ from a start so that its check surely passes.
+    """Return bounds (2, n) on the differences of q and v between the first sample and a start.
 
-    They are bounds for all coordinates; NaN if the start is too far from the file's.
+    Within these bounds `_check_first_sample` passes; beyond them it may pass too. They are NaN if the start differs
+    from the file's `start.set` by more than START_TOL.
     """
     size = max(compute_size(source, p), 1e-300)
-    off = START if _compute_distance_from_given_start(source, p, q, size) <= START * size else np.nan
-    slower = START_RATES * min(size, 1.0) * np.abs(v).max(initial=0.0)
+    off = START_TOL if _compute_distance_from_given_start(source, p, q, size) <= START_TOL * size else np.nan
+    slower = START_RATES_TOL * min(size, 1.0) * np.abs(v).max(initial=0.0)
     return np.repeat([[off * size], [slower]], len(q), axis=1) / max(size, 1.0)
 
 
@@ -255,7 +265,7 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
 
 @cache_by_values
 def list_given_coordinates(source: KernelSource) -> tuple[tuple[int, int], ...]:
-    """Return the indices of the coordinates that the file's `start.set` gives, each with that of its parameter."""
+    """Return pairs of indices for the coordinates in the file's `start.set`: of the coordinate and its parameter."""
     indices = ((k, source.slot_index.get(f"start.set.{name}")) for k, name in enumerate(source.coordinates))
     return tuple((k, i) for k, i in indices if i is not None and source.coordinates[k] in source.start_set)
 
@@ -273,20 +283,20 @@ def check_energy_balance(
     Yields nothing for a fixed step, which has no tolerance, for few samples, and where the energy throughput is too
     small. `largest_energy`: kinetic or potential (J). `balance`: residual and throughput (J).
     """
-    residual, turned = balance[0], balance[1] + largest_energy
+    residual, throughput = balance[0], balance[1] + largest_energy
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
     if not adaptive or len(trajectory.t) < MIN_SAMPLES or not math.isfinite(residual):
         return
-    crossing = size / max(abs(float(trajectory.t[-1] - trajectory.t[0])), 1e-300)
-    most = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing * crossing
-    if not turned > max(MIN_WORK_J, AT_REST**2 * most):
+    crossing_speed = size / max(abs(float(trajectory.t[-1] - trajectory.t[0])), 1e-300)
+    crossing_energy = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing_speed * crossing_speed
+    if not throughput > max(MIN_WORK_J, REST_SPEED_TOL**2 * crossing_energy):
         return
-    tolerance = max(ENERGY * problem.rtol * math.sqrt(trajectory.counts.steps + 1.0), MIN_ENERGY_TOL)
-    if not trajectory.v[0].any():  # tolerances of a motion that begins at rest are those of one by its size in the time
-        turned += most
-    if residual > tolerance * turned:  # samples at one phase of a periodic motion may all lie where it is slow
-        turned = max(turned, _estimate_kinetic_energy(compiled, problem, trajectory, size))
-    yield Finding("energy", residual / (tolerance * turned), float(trajectory.t[-1]), "")
+    tolerance = max(ENERGY_TOL_FACTOR * problem.rtol * math.sqrt(trajectory.counts.steps + 1.0), MIN_ENERGY_TOL)
+    if not trajectory.v[0].any():  # tolerances of velocities from rest are those of the crossing speed
+        throughput += crossing_energy
+    if residual > tolerance * throughput:  # samples at one phase of a periodic motion may all be slow
+        throughput = max(throughput, _estimate_kinetic_energy(compiled, problem, trajectory, size))
+    yield Finding("energy", residual / (tolerance * throughput), float(trajectory.t[-1]), "")
 
 
 def _estimate_kinetic_energy(compiled: CompiledModel, problem: Problem, trajectory: Trajectory, size: float) -> float:
@@ -301,9 +311,9 @@ def _estimate_kinetic_energy(compiled: CompiledModel, problem: Problem, trajecto
 
 
 def _find_undefined_row(evaluation: Evaluation, has_rigid_contacts: bool) -> int | None:
-    """Return the first sample at which an evaluated result is not finite; None if all are finite.
+    """Return the index of the first sample at which an evaluated result is not finite; None if all are finite.
 
-    Forces of rigid contacts are not recomputed at samples and are left out.
+    Clearance forces are left out with rigid contacts, whose forces are not computed again at samples.
     """
     parts = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
     parts += [] if has_rigid_contacts else [evaluation.clearance[:, :, :2]]
@@ -332,10 +342,11 @@ class _ContactForces:
         self.touching = touching if _exceeds(touching, self.touching) else self.touching
 
 
-def choose_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:
-    """Return the indices of the samples that C checks, of a run with so many samples and evaluations.
+def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:
+    """Return the indices of the pseudo-random samples that C checks, of a run with `n_samples` samples.
 
-    `audit`: level of the audit. All samples of a run with few are checked.
+    There are 8; 4 after at most MAX_CALLS_OF_SHORT_RUN evaluations (`right_hand_sides`), unless `audit`, the level of
+    the audit, is "full". A run with fewer samples is checked at all of them.
     """
     is_short = audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
     drawn = SHORT_RUN_POSITIONS if is_short else SAMPLE_POSITIONS
@@ -343,11 +354,15 @@ def choose_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray
 
 
 def list_checks_left_out(source: KernelSource, method: str) -> set[str]:
-    """Return the checks of samples that do not apply to the scene with this method."""
+    """Return the names of the sample checks that do not apply to the scene with this method.
+
+    Without masses or with undetermined reactions, forces and powers are not known. With rk4 in the full formulation,
+    the constraint equations drift.
+    """
     left_out = set[str]()
     if source.massless or source.indeterminate:
         left_out |= {"body", "power", "torque"}
-    if method == "rk4" and source.formulation == "full":  # its rows drift
+    if method == "rk4" and source.formulation == "full":
         left_out |= {"rows", "rates", "power", "body"}
     return left_out
 
@@ -357,9 +372,9 @@ def _exceeds(value: float, largest: float) -> bool:
     return not value <= largest and largest == largest
 
 
-def draw_samples(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
-    """Return the indices of the pseudo-random samples that C checks: few in short runs."""
+def select_audit_samples_of_run(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
+    """Return the result of `select_audit_samples` for a problem and its run; a resumed run without its first sample."""
     N = len(trajectory.t)
-    samples = choose_samples(N, problem.audit, trajectory.counts.right_hand_sides)
-    # a resumed state may lie off its constraints
+    samples = select_audit_samples(N, problem.audit, trajectory.counts.right_hand_sides)
+    # a resumed state may violate the constraints
     return samples[samples > 0] if problem.state is not None and N > 1 else samples

@@ -22,7 +22,7 @@ Errors = dict[int, BadValueError]
 
 
 def _split_times_by_run(output: Any) -> list[Any] | None:
-    """Split the argument `output` into one row of times per run; return None if all runs share their times.
+    """Split the argument `output` into one row of times per run; return None if all runs have the same times.
 
     Rows come from an array (n, N), or from a list, tuple or object array that contains sequences. Rows are not checked.
     """
@@ -86,7 +86,7 @@ class BatchArguments:
                 continue
             if len(times_of_runs) == 1 and times is not next(
                 iter(times_of_runs.values())
-            ):  # a row for each is made of them
+            ):  # each run gets a row of its times
                 check_memory(2 * 8 * float(len(p)) * len(times[0]), f"{len(p)} rows of times, {len(times[0])} each,")
             times_of_runs[i] = times
         if self.failures and not times_of_runs:
@@ -121,7 +121,7 @@ class BatchArguments:
         try:
             t = compute_output_times(source, p, t0, end, row)
         except InputError as error:
-            if end is None and self.rows is None:  # what the file says of its runs, with these numbers
+            if end is None and self.rows is None:  # the times are those of the file, with parameter values p
                 self.failures[i] = BadValueError(str(error))
                 return None
             raise BadValueError(f"run {i}: {error}") from None
@@ -155,8 +155,8 @@ class BatchArguments:
     def _compute_step_of_run(self, i: int, step: Any, method: str, p: Array, duration: float) -> float:
         """Return the checked fixed step (s) of run i, which lasts `duration` (s).
 
-        An error of the file's own step expression is recorded in `failures`, with 1.0 returned. Others are raised as
-        BadValueError, with the index of the run if runs have their own values.
+        An error of the file's step expression is recorded in `failures`, and 1.0 is returned. Others are raised as
+        BadValueError, with the index of the run if t_end, output or step differ between runs.
         """
         try:
             h = evaluate_step(
@@ -175,7 +175,10 @@ class BatchArguments:
 
 
 def _require_time(value: Any, name: str) -> Any:
-    """Return the time `value` of one run unchanged; raise BadValueError if it is None. `name` is for the message."""
+    """Return the argument `value` of one run (t_end or step); raise BadValueError if it is None. `name`: for messages.
+
+    Nothing else is checked here.
+    """
     if value is None:
         raise BadValueError(f"{name} is None: expected a time (s)")
     return value

@@ -46,7 +46,7 @@ NODES, WEIGHTS = leggauss(6)  # nodes and weights of Gauss's quadrature on −1 
 MAX_INTERVALS = 20_000  # largest number of intervals between samples that get Gauss points
 MIN_SAMPLES, MAX_SAMPLES = 2, 100_000_000  # limits of the number of intervals of a contact check
 NOTE_STORED_SAMPLES = "the run could not be repeated bit for bit: only its stored samples were checked"
-NOTE_NOT_REPEATED = "the run could not be repeated bit for bit: where the work of its joints went is not known"
+NOTE_NOT_REPEATED = "the run could not be repeated bit for bit: the works of its joints are not known"
 
 
 def examine(
@@ -76,19 +76,19 @@ def _yield_repetitions(
     peaks: tuple[str | SlidingRequest, ...] = (),
     requested_end: float = math.nan,
 ) -> Iterator[Result]:
-    """Yield repetitions of the run with samples at times t (s): from the file's start if it began there, then from its
-    own.
+    """Yield repetitions of the run with samples at times t (s), from one or two starts.
 
-    Repetitions that fail or end early are skipped. `settings`, `peaks`: arguments of simulate. `requested_end` (s):
-    t_end of a run that an event or an error ended at the last of the times; else NaN. Raises KeyboardInterrupt after
-    Ctrl-C. `progress` None: nothing is reported.
+    A run from t = 0 that was not resumed is repeated from the file's start first, then from its first sample. Other
+    runs are repeated from the state that they resumed, or their first sample. Repetitions that fail or end early are
+    skipped. `settings`, `peaks`: arguments of simulate. `requested_end` (s): t_end of a run that an event or an error
+    ended at the last of the times; else NaN. Raises KeyboardInterrupt after Ctrl-C.
     """
     own_start, has_end = build_start_state(run), math.isfinite(requested_end)
     times = np.append(t, requested_end) if has_end else t
     for start in (None, own_start) if own_start.t == 0.0 and run.begun is None else (own_start,):
         try:
             repetition = repeat_run(simulation, times, start, settings, progress, peaks, has_end)
-        except GudgeonError:  # a start that does not close any more
+        except GudgeonError:  # for example a start that violates the constraint equations
             continue
         if repetition is not None and repetition.diagnostics.interrupted:
             raise KeyboardInterrupt
@@ -114,7 +114,7 @@ def _examine_joints(
         notes.append(NOTE_NOT_REPEATED)
         return ()
     indices, joints = np.searchsorted(repetition.t, t), run.source.clearances
-    dry_repetition = repetition  # the same states, and of its joints' forces what the surfaces bear that touch
+    dry_repetition = repetition  # the same states with the forces of touching surfaces only, without those of films
     if any(joint.dry and joint.film for joint in joints) and not run.source.laws:
         dry_repetition = replace(repetition, p=clear_oil_viscosities(simulation.compiled, repetition.p))
     examined_joints = tuple(
@@ -124,7 +124,7 @@ def _examine_joints(
         return examined_joints
     remainder = -float(
         weights @ repetition.evaluation.power[indices, 2]
-    )  # its film took, the torque of its shear too, all the rest
+    )  # the film dissipated the remainder, including the work of its shear torque
     remainder -= sum(
         x
         for joint_examined in examined_joints
@@ -157,7 +157,7 @@ def repeat_run_exactly(
         for exact_settings in _yield_exact_settings(settings)
         for x in _yield_repetitions(simulation, run, t, exact_settings, progress, peaks, requested_end)
     ):
-        if repetition.t[-1] != t[-1]:  # its event is not quite where it was
+        if repetition.t[-1] != t[-1]:  # its last event has moved
             continue
         same = np.searchsorted(repetition.t, run.t)
         if np.array_equal(repetition.q[same], run.q, equal_nan=True) and np.array_equal(repetition.v[same], run.v):
@@ -179,7 +179,8 @@ def _compute_quadrature(run: Result) -> tuple[Array, Array]:
     """Return times and weights (s) of a Gauss quadrature over all contacts of a run, or over the whole run if it has a
     film.
 
-    Six points lie between successive samples, onsets, peaks, separations and recorded step ends.
+    Six points lie between successive samples, onsets, peaks, separations and recorded step ends. In runs with more than
+    MAX_INTERVALS samples, some samples are skipped.
     """
     edges = [
         run.t[:: max(1, len(run.t) // MAX_INTERVALS)],
@@ -212,7 +213,7 @@ def _examine_joint(
     products = ((dry_repetition[f"{name}.F{axis}"] * repetition[f"{name}.e{axis}"])[indices] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
         radial_force = sum(products) / e
-        if (depths := find_contour(run.source, run.p, name)) is not None:  # of the force, what acts by the penetration
+        if (depths := find_contour(run.source, run.p, name)) is not None:  # component along the penetration's gradient
             bearing = run.source.bodies[joint.first].name if joint.first >= 0 else None
             theta = repetition[f"{bearing}.theta"][indices] if bearing else 0.0
             angle = np.arctan2(repetition[f"{name}.ey"][indices], repetition[f"{name}.ex"][indices]) - theta
@@ -340,7 +341,7 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
         try:
             ideal = ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
         except GudgeonError as error:
-            notes.append(f"the ideal scene cannot be followed: {str(error).partition(chr(10))[0]}")
+            notes.append(f"the run of the ideal scene failed: {str(error).partition(chr(10))[0]}")
             return ()
     forces = []
     joints_with_play = dict.fromkeys(joint.joint for joint in run.source.clearances)
@@ -354,8 +355,9 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
 
 
 def _compute_mean_square(t: Array, values: Array) -> float:
-    """Return the mean square over time of a series (N,) at times t (s) by the trapezoidal rule; of one sample, its
-    square.
+    """Return the mean square over time of a series (N,) at times t (s), by the trapezoidal rule.
+
+    With one sample, return its square.
     """
     span = float(t[-1] - t[0])
     return float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
@@ -364,10 +366,11 @@ def _compute_mean_square(t: Array, values: Array) -> float:
 def _estimate_errors(
     simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
 ) -> tuple[tuple[Difference, ...], str]:
-    """Return how far the main series and joint forces change in a more accurate run, and a text on how that was run.
+    """Return the largest differences of the main series and joint forces from a more accurate run, and a description.
 
-    The other run has half the step or a tighter tolerance. Times after the predictability horizon are not compared.
-    Return ((), "") for kinematic runs without play, and with a note in `notes` if the other run ends early.
+    The more accurate run has half the step or a tighter tolerance, which the description names. Times after the
+    predictability horizon are not compared. Return ((), "") for kinematic runs without play and for one sample. If the
+    other run fails or ends early, a note is appended to `notes` too.
     """
     if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
         return (), ""  # Newton's method at each sample, without steps
@@ -377,7 +380,7 @@ def _estimate_errors(
     settings = settings_of_run | {"step": settings_of_run["step"] / 2.0} if fixed else tighter
     accurate_run = next(_yield_repetitions(simulation, run, run.t, settings, progress), None)
     if accurate_run is None:
-        notes.append(f"a run with {description} does not come to the end of this one")
+        notes.append(f"errors are not estimated: a run with {description} fails or ends before the end of this run")
         return (), ""
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])

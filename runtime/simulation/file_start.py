@@ -25,17 +25,17 @@ class FileStart:
     memory: Array  # (n_memory,) discrete states: no contact, unknown modes
     guess_deviations: Mapping[str, float]  # as of find_guess_deviations
     notes: tuple[str, ...]  # on contacts without an onset
-    allowed_error: Array  # (2, n) by which q and v of the first sample may surely differ from these
+    allowed_error: Array  # (2, n) differences of the first sample from q and v up to which its audit passes
 
 
 @cache_by_values
 def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
-    """Return the start that the file describes, assembled at the first call with these values; not to be changed.
+    """Return the start that the file describes, cached for equal parameter values; callers must not change it.
 
     Raises AssemblyError if the linkage does not close, or if an equation that was redundant is not with these values.
     """
     start, no_contacts, source = assemble_start(compiled, p), np.full(compiled.n_memory, np.nan), compiled.source
-    # without a position of its own, a journal begins in the middle of its bearing
+    # a journal without a start position in the file begins in the centre of its bearing
     may_touch = bool(source.start_apart) or any(joint.is_corner for joint in source.clearances)
     check_redundant_equations(compiled, p, 0.0, start.q)
     return FileStart(

@@ -84,7 +84,7 @@ def load_bytes(
     """Load a scene from the bytes of a mechanism file and return its Simulation; arguments as in `load`.
 
     `file` is for messages and tables next to it. `start`: time of perf_counter when reading began, or None. SIGTERM and
-    SIGHUP end compilers first.
+    SIGHUP stop running compilers before they end the process.
     """
     read = perf_counter()
     start = read if start is None else start

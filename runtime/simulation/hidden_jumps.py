@@ -25,14 +25,14 @@ from gudgeon.language.functions import JUMPING, WITH_SWITCHING_POINTS, select_fu
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names, list_functions
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
+from gudgeon.model.file_expressions import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
 
 _HIDING = select_function_names(lambda f: f.hides_switching_points)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`
-GRID, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
+N_GRID_INTERVALS, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
 END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end
 # intervals of a refinement level, and number of levels; each is a quarter as wide as the one before
-POINTS, LEVELS = 16, 11
+N_LEVEL_INTERVALS, N_LEVELS = 16, 11
 MAX_LARGE_DIFFERENCES = 6  # number of intervals with large differences from which on there is no isolated point
 
 
@@ -48,7 +48,7 @@ class Jump:
     t: float
     kind: str
     size: float
-    is_between_branches: bool = False  # whether it lies between the branches of where or mod
+    is_between_branches: bool = False  # whether the jump is between branches of where or mod
     message: str = ""  # message: a branch of a where is not a number at its own switching point
 
 
@@ -68,16 +68,16 @@ def find_hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> l
     return sorted(jumps, key=lambda jump: jump.t)
 
 
-def may_jump(source: KernelSource) -> bool:
-    """Return whether any drive needs a search for hidden jumps."""
+def needs_jump_search(source: KernelSource) -> bool:
+    """Return whether `find_hidden_jumps` must search any drive of the scene."""
     return bool(_list_drives_with_unknown_switching(source) or _list_drives_with_branches(source))
 
 
 @cache_by_values
 def _list_jump_searches(source: KernelSource) -> list[_Search]:
-    """Return the drives to search for jumps that no run can pass: name, expression and search function of each.
+    """Return the drives to search for jumps that end a run: name, expression and search function of each.
 
-    For kinematic scenes these include infinite rates of drives whose switching points are found otherwise.
+    For kinematic scenes they include drives whose switching points the generator finds: their rates may be infinite.
     """
     searches: list[_Search] = [
         (drive, tree, _find_jumps) for drive, tree in _list_drives_with_unknown_switching(source)
@@ -88,7 +88,7 @@ def _list_jump_searches(source: KernelSource) -> list[_Search]:
     return searches + [
         (drive, tree, _find_unbounded_rates)
         for drive, tree in others
-        if drive not in drives and _may_hide_switching_point(tree)
+        if drive not in drives and _is_possibly_nonsmooth(tree)
     ]
 
 
@@ -120,9 +120,7 @@ def find_first_jumps(
 
 
 def _has_impulse_at_jump(source: KernelSource) -> bool:
-    """Return whether a jump of a drive would cause an impulse on degrees of freedom; else the linkage just follows
-    it.
-    """
+    """Return whether a jump of a drive would cause an impulse: the scene has drives and degrees of freedom."""
     return bool(source.drives) and KINEMATIC not in source.methods
 
 
@@ -132,29 +130,31 @@ def _list_drive_expressions(source: KernelSource) -> list[tuple[str, Expr]]:
 
 
 def _list_drives_with_unknown_switching(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return name and expression of the drives that may have switching points unknown to the generator."""
+    """Return name and expression of the drives that may have switching points unknown to the generator.
+
+    Drives in `source.rate_jumps` and drives with functions such as abs are left out: the generator knows their points.
+    """
     return [
         (drive, tree)
         for drive, tree in _list_drive_expressions(source)
-        if _may_hide_switching_point(tree)
+        if _is_possibly_nonsmooth(tree)
         and drive not in source.rate_jumps
         and WITH_SWITCHING_POINTS.isdisjoint(list_functions(tree))
     ]
 
 
 def compute_end_before_jump(jump: Jump, t0: float) -> float:
-    """Return the time (s) before which the last sample of a run from t0 must lie if it meets the jump.
+    """Return the latest time (s) at which a run from t0 (s) may end without an error because of the jump.
 
-    A break between branches is avoided by a margin, since a sample at its time may be on either side.
+    It is the time of the jump, less a relative margin of 1e-10 for a jump between branches of where or mod: rounding
+    decides which branch holds at the jump.
     """
-    return jump.t - (
-        1e-10 * max(abs(t0), abs(jump.t)) if jump.is_between_branches else 0.0
-    )  # at the jump it is on either side
+    return jump.t - (1e-10 * max(abs(t0), abs(jump.t)) if jump.is_between_branches else 0.0)
 
 
 def build_jump_error(source: KernelSource, jump: Jump) -> SolverError:
     """Build the error that ends a run at a jump of a drive; NonFiniteError if a branch is not a number there."""
-    why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
+    why = "its rate is not defined there" if jump.kind == "rate" else "no linkage can follow it"
     message = _format_jump_error(jump, "the impulse there would be left out" if _has_impulse_at_jump(source) else why)
     return (NonFiniteError if jump.message else SolverError)(message, jump.t)
 
@@ -165,43 +165,45 @@ def _format_jump_error(jump: Jump, reason: str) -> str:
         return f"{jump.message}\n  {NO_NUMBER}"
     if jump.kind == "infinite rate":
         return (
-            f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
+            f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: velocities are not finite there\n"
             "  write it so that its rate is bounded, or end the run before"
         )
     if jump.is_between_branches:
         return (
-            f"drive {jump.drive}: it jumps by {jump.size:.4g} at t = {jump.t:.6g} s: no linkage follows it\n"
-            "  what where and mod choose between must meet where they change over, or the run ends before"
+            f"drive {jump.drive}: it jumps by {jump.size:.4g} at t = {jump.t:.6g} s: no linkage can follow it\n"
+            "  give where and mod branches with equal values at their switching points, or end the run before"
         )
     what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
     return (
-        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: {reason}\n"
-        "  write it with abs, min, max or ramp, whose corners are found, or end the run before"
+        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its expression does not show: {reason}\n"
+        "  write it with abs, min, max or ramp, whose switching points are found, or end the run before"
     )
 
 
-def _may_hide_switching_point(tree: Expr) -> bool:
-    """Return whether an expression contains a function, a non-integer power or a division that may hide a switching
-    point.
+def _is_possibly_nonsmooth(tree: Expr) -> bool:
+    """Return whether an expression may be non-smooth at points that the generator does not detect.
+
+    Such are functions with `hides_corners`, as acos and sqrt, powers whose exponent is not a natural number, and
+    divisions by other than a number.
     """
     match tree:
         case Unary(operand=operand):
-            return _may_hide_switching_point(operand)
+            return _is_possibly_nonsmooth(operand)
         case Binary(operator=operator, left=left, right=right):
             is_integer_power = isinstance(right, Number) and (operator == "/" or right.value == round(right.value) >= 0)
             return (
                 operator in ("**", "/")
                 and not is_integer_power
-                or _may_hide_switching_point(left)
-                or _may_hide_switching_point(right)
+                or _is_possibly_nonsmooth(left)
+                or _is_possibly_nonsmooth(right)
             )
         case Call(function=function, arguments=arguments):
-            return function in _HIDING or any(map(_may_hide_switching_point, arguments))
+            return function in _HIDING or any(map(_is_possibly_nonsmooth, arguments))
     return False
 
 
 def _list_drives_with_branches(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return name and expression of the drives with where or mod, whose branches may not meet at switching points."""
+    """Return name and expression of the drives with where or mod, whose branches may differ at switching points."""
     return [
         (drive, tree) for drive, tree in _list_drive_expressions(source) if not JUMPING.isdisjoint(list_functions(tree))
     ]
@@ -211,8 +213,7 @@ def _list_drives_with_branches(source: KernelSource) -> list[tuple[str, Expr]]:
 def _find_first_discontinuity(
     source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float
 ) -> list[Jump]:
-    """Return the first time between t0 and t1 (s) at which a drive's value jumps, as a list of one Jump; [] without
-    one.
+    """Return the first jump of a drive's value between t0 and t1 (s), as a list of one Jump; [] without one.
 
     `drive` and `tree`: its name and expression, with where or mod. The end is included: the last sample may lie on
     either side of it. A branch that is not a number at its own switching point is returned as a Jump too.
@@ -220,13 +221,13 @@ def _find_first_discontinuity(
     end_margin = END_MARGIN * (t1 - t0)
     t1 += end_margin
     info = next(info for info, _ in read_expression_trees(source, ("drives",)) if info.address.split(".")[1] == drive)
-    undefined = find_undefined_value_at_switch(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
+    undefined = find_undefined_value_at_switch(source, p, info, tree, np.linspace(t0, t1, N_GRID_INTERVALS + 1))
     if undefined:
         t1 = undefined[1]
     ratios, h = (
         _compute_curvature_ratio(source, p, tree, t0, t1, "reflect"),
-        (t1 - t0) / GRID,
-    )  # the last place may stand out too
+        (t1 - t0) / N_GRID_INTERVALS,
+    )  # a jump in the last interval is detected too
     for k in np.flatnonzero(ratios > 3.0)[:MAX_BREAK_CANDIDATES].tolist():
         t = t0 + (k + 1) * h
         jump = _classify_jump(source, p, tree, drive, max(t - h, t0), min(t + h, t1))
@@ -242,11 +243,11 @@ def _find_first_discontinuity(
 def _compute_curvature_ratio(
     source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, pad_mode: Any = "edge"
 ) -> Array:
-    """Return the ratio (GRID − 1,) of second differences of a drive on a grid to the median of those around them.
+    """Return the ratio (N_GRID_INTERVALS − 1,) of a drive's second differences on a grid to the median around them.
 
     `pad_mode`: how the differences are continued past the ends t0, t1 (mode of numpy.pad).
     """
-    f = evaluate_at_times(source, p, tree, np.linspace(t0, t1, GRID + 1))
+    f = evaluate_at_times(source, p, tree, np.linspace(t0, t1, N_GRID_INTERVALS + 1))
     second_differences = np.abs(np.diff(f, 2))
     around = np.median(
         np.lib.stride_tricks.sliding_window_view(np.pad(second_differences, 8, mode=pad_mode), 17), axis=1
@@ -256,14 +257,15 @@ def _compute_curvature_ratio(
 
 @np.errstate(all="ignore")
 def _find_jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    """Return the hidden jumps of one drive between t0 and t1 (s), at most MAX_JUMPS, the clearest first.
+    """Return the hidden jumps of one drive between t0 and t1 (s), at most MAX_JUMPS.
 
-    `drive` and `tree`: its name and expression. Jumps closer than 2.5 grid intervals count as one.
+    They are in descending order of their curvature ratio, not of time. `drive` and `tree`: name and expression of the
+    drive. Jumps closer than 2.5 grid intervals count as one.
     """
     ratios = _compute_curvature_ratio(source, p, tree, t0, t1)
     candidates = [k for k in np.argsort(-ratios, kind="stable")[: 4 * MAX_JUMPS].tolist() if ratios[k] > 3.0]
     jumps: list[Jump] = []
-    h = (t1 - t0) / GRID
+    h = (t1 - t0) / N_GRID_INTERVALS
     for k in candidates:
         t = t0 + (k + 1) * h
         if len(jumps) < MAX_JUMPS and all(abs(t - jump.t) > 2.5 * h for jump in jumps):
@@ -285,8 +287,8 @@ def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: fl
     """
     logs: list[float] = []
     sizes: list[float] = []  # of the rate's change
-    for _ in range(LEVELS):
-        times = np.linspace(a, b, POINTS + 1)
+    for _ in range(N_LEVELS):
+        times = np.linspace(a, b, N_LEVEL_INTERVALS + 1)
         f = evaluate_at_times(source, p, tree, times)
         second_differences = np.abs(np.diff(f, 2))
         if not np.isfinite(second_differences).all():
@@ -299,10 +301,10 @@ def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: fl
         logs.append(float(np.log(second_differences[k]) / np.log(4.0)))
         sizes.append(float(abs((f[-1] - f[-2]) - (f[1] - f[0])) / (times[1] - times[0])))
         value = float(second_differences[k])
-        a, b = float(times[max(k - 1, 0)]), float(times[min(k + 3, POINTS)])
+        a, b = float(times[max(k - 1, 0)]), float(times[min(k + 3, N_LEVEL_INTERVALS)])
     if len(logs) < 5:
         return None
-    exponents = -np.diff(logs)  # how the differences go with h; a function may be smooth but for its last digits
+    exponents = -np.diff(logs)  # second differences ∝ h^exponent; the last digits may be rounding
     last_exponent = float(exponents[-4:].mean())
     if last_exponent > 1.4:
         return None

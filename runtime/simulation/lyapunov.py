@@ -27,9 +27,9 @@ from gudgeon.language.argument_checks import check_text, raise_bad_value
 from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import iterate_names, list_functions
 from gudgeon.model.compiled import Array
+from gudgeon.model.file_expressions import read_expression_trees
 from gudgeon.model.parameters import prepare_run_values
 from gudgeon.model.sizes import compute_mechanism_sizes
-from gudgeon.model.written import read_expression_trees
 from gudgeon.results.lyapunov import Lyapunov, Section
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import evaluate_end_time, parse_seconds
@@ -47,10 +47,10 @@ if TYPE_CHECKING:
 
 METHODS = ("auto", "tangent", "twin")  # methods for the growth of differences
 RTOL = 1e-12  # default tolerance of the runs: far below the distance of neighbours
-# loosest tolerance of a second run: if only one run takes another step, they differ by the error of the step
+# largest tolerance of a second run: if the steps of both runs differ, the runs differ by the error of a step
 MAX_RTOL_OF_SECOND_RUN = 1e-10
 N_SAMPLES = 1000  # samples by which the motion is measured
-INTERVALS = 60  # number of intervals of the time; at least one per period
+MIN_INTERVALS = 60  # number of intervals of the time; at least one per period
 MIN_INTERVAL = 2.0**-12  # shortest interval, relative to the longest
 PERIOD_TOL = 1e-6  # of a period: by which a time may differ from a multiple of it
 
@@ -60,13 +60,13 @@ def explain_invalid_tangent(source: KernelSource) -> str:
     if source.reason_without_jacobian:
         return source.reason_without_jacobian
     if source.states:
-        return f"a law has an internal state, {next(filter(None, source.states))}, which is no coordinate"
+        return f"a law has an internal state, {next(filter(None, source.states))}, which is not a coordinate"
     if source.frictions:
-        return f"{source.frictions[0]} sticks and slips: its rows come and go"
+        return f"{source.frictions[0]} sticks and slips: its constraint equations change"
     if source.rate_jumps:
         return f"the rate of the drive {source.rate_jumps[0]} may jump: the linkage follows by an impulse"
     if source.laws:
-        return f"the law {source.laws[0][0]} is of one's own: where it jumps is not known"
+        return f"the law {source.laws[0][0]} is user-defined: its jumps are not known"
     for info, tree in read_expression_trees(source, ("forces",)):
         if function_names := sorted(list_functions(tree) & JUMPING):
             return f"{info.address} calls {function_names[0]}, which may jump"
@@ -99,14 +99,14 @@ def compute_lyapunov_exponent(
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
     reason = _explain_second_run(source, check_text(by, "by"))
-    settings = _build_run_settings(settings, reason is not None)
+    settings = _add_default_rtol(settings, reason is not None)
     arguments_of_start = _compute_settled_start(simulation, skip, settings, parameters, start)
     measured_run = simulation.simulate(
         t_end, output=N_SAMPLES, stop=False, peaks=(), progress=progress, **arguments_of_start, **settings
     )
     if measured_run.diagnostics.interrupted:
         raise KeyboardInterrupt
-    returns = Returns.from_run(measured_run, section)
+    returns = SectionReturns.from_run(measured_run, section)
     norm = DifferenceNorm.from_run(measured_run, simulation.compiled)
     _require_sufficient_motion(measured_run, norm)
     transverse = bool(returns.event) and not _has_time_dependence(source)
@@ -145,7 +145,7 @@ def _require_sufficient_motion(run: Result, norm: DifferenceNorm) -> None:
     """Raise BadValueError if the motion hardly changes in the run, so that its mean growth is not an exponent."""
     if norm.is_run_too_short(run):
         span = float(run.t[-1] - run.t[0])
-        message = f"a span of {span:.3g} s is too short for a Lyapunov exponent: nothing turns or strikes in it"
+        message = f"a span of {span:.3g} s is too short for a Lyapunov exponent: it has no swing, turn or contact"
         raise BadValueError(message, hint="expected a span of several swings, turns or contacts: an exponent is a mean")
 
 
@@ -158,14 +158,14 @@ def _read_run_settings(
 ) -> tuple[float, State, dict[str, Any]]:
     """Return end (s), start and settings of simulate for the exponent of a given run.
 
-    Method and step are those of the run unless `settings` has others; the tolerance is not taken over. Raises
+    Method and step are those of the run unless `settings` has others; its tolerance is not used. Raises
     BadValueError for a run of another scene, or if parameters or a start are given too. `parameters` and `start` must
     be None.
     """
     check_simulation_of_run(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
         hint = "leave out parameters and start"
-        raise BadValueError("lyapunov of a run: it has its own start and numbers", hint=hint)
+        raise BadValueError("lyapunov of a run: start and parameters are those of the run", hint=hint)
     run_settings = {name: value for name, value in build_repeat_settings(run)[0].items() if name in ("method", "step")}
     requested = {name: value for name, value in settings.items() if value is not None and value != "auto"}
     return float(run.t[-1]), build_start_state(run), settings | run_settings | requested
@@ -179,7 +179,7 @@ def _yield_intervals(
     Intervals are halved where the difference grows too much, then lengthened again. Ends of periods are ends of
     intervals; `period` is 0 without one. `progress` is called after each.
     """
-    longest = (end - begin) / INTERVALS
+    longest = (end - begin) / MIN_INTERVALS
     if period:
         longest = period / math.ceil(period / longest)
     t, h = begin, longest
@@ -194,7 +194,7 @@ def _yield_intervals(
         t, h = t_next, min(2.0 * h, longest) if abs(advanced[1]) < 1.0 else h
         yield advanced
         if progress:
-            progress((t - begin) / (end - begin), "following a neighbour")
+            progress((t - begin) / (end - begin), "integrating a neighbouring state")
 
 
 def _explain_second_run(source: KernelSource, method: str) -> str | None:
@@ -207,30 +207,34 @@ def _explain_second_run(source: KernelSource, method: str) -> str | None:
         raise_bad_value("by", method, f"one of {', '.join(METHODS)}")
     reason = explain_invalid_tangent(source)
     if method == "tangent" and reason:
-        raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" takes a second run')
+        raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" uses a second run')
     reason = reason or (explain_slow_tangent(source) if method == "auto" else "")
     return None if method == "tangent" or (method == "auto" and not reason) else reason
 
 
-def _build_run_settings(settings: dict[str, Any], has_second_run: bool) -> dict[str, Any]:
-    """Return the arguments of simulate for all runs, with the tolerance RTOL unless a tolerance or fixed step is given.
+def _add_default_rtol(settings: dict[str, Any], has_second_run: bool) -> dict[str, Any]:
+    """Return the arguments of simulate for all runs: those of `settings` that are not None, and an rtol by default.
 
-    Raises BadValueError for a tolerance that is too loose for a second run (`has_second_run`).
+    The default is RTOL; it is not added with a fixed step (`step`, or method rk4). Raises BadValueError for an rtol
+    above MAX_RTOL_OF_SECOND_RUN if a second run is integrated (`has_second_run`).
     """
     given = {name: value for name, value in settings.items() if value is not None}
     if given.get("step") is not None or str(given.get("method")) == "rk4":
         return given
     given = {"rtol": RTOL} | given
     if has_second_run and parse_tolerance(given["rtol"], "auto", False) > MAX_RTOL_OF_SECOND_RUN:
-        message = f"rtol is {given['rtol']}: a twin is {INITIAL_DISTANCE:g} apart, and would measure what steps err by"
-        raise BadValueError(message, hint=f"expected {MAX_RTOL_OF_SECOND_RUN:g} or less; without one it is {RTOL:g}")
+        message = (
+            f"rtol is {given['rtol']}: errors of steps would change the distance of the second run,"
+            f" {INITIAL_DISTANCE:g} at first"
+        )
+        raise BadValueError(message, hint=f"expected {MAX_RTOL_OF_SECOND_RUN:g} or less; the default is {RTOL:g}")
     return given
 
 
 def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float | None:
     """Return the relative tolerance of runs that are compared with a neighbour: `rtol`, limited; None stays None.
 
-    It is at most MAX_RTOL_OF_SECOND_RUN where by="auto" follows a second run.
+    It is at most MAX_RTOL_OF_SECOND_RUN where by="auto" integrates a second run.
     """
     return (
         min(rtol, MAX_RTOL_OF_SECOND_RUN)
@@ -249,7 +253,7 @@ def _compute_settled_start(
     """Run the scene for `skip` (s) and return the arguments `start` and, if needed, `parameters` of the run after that.
 
     With skip 0 nothing is run, and the given arguments are returned. Raises BadValueError for a negative or infinite
-    time. `parameters` and `start` None: those of the file.
+    time, KeyboardInterrupt after Ctrl-C. `parameters` and `start` None: those of the file.
     """
     state = None if start is None else copy_checked_state(simulation.source, start)
     given, is_given, _ = merge_parameters(simulation.compiled, state, parameters)
@@ -278,8 +282,11 @@ def _has_time_dependence(source: KernelSource) -> bool:
 
 
 @dataclass(eq=False)
-class Returns:
-    """Collect the returns of a run to a section: at `event`, or after each `period` (s; 0: none) from `begin` (s)."""
+class SectionReturns:
+    """Collect the returns of a run to a Poincaré section.
+
+    The section is an `event` of the file, or the end of each `period` (s; 0: none) from `begin` (s).
+    """
 
     event: str
     period: float
@@ -291,8 +298,8 @@ class Returns:
     points: list[Array] = field(default_factory=list)
 
     @staticmethod
-    def from_run(run: Result, section: str | float | None) -> Returns:
-        """Prepare an empty collection of returns, with scales from a run that shows the whole motion.
+    def from_run(run: Result, section: str | float | None) -> SectionReturns:
+        """Create an empty collection of returns, with scales from `run`, which spans the whole motion.
 
         Raises InputError for an invalid section. `section`: an event, a period (s), or None for no section.
         """
@@ -300,7 +307,7 @@ class Returns:
         size = float(compute_mechanism_sizes(run.source, run.p))
         per = np.where(find_angles(run.source), 1.0, size)
         speed = float(np.sqrt(np.mean(np.square(run.v / per), axis=0)).max(initial=0.0)) * size
-        returns = Returns(event, period, float(run.t[0]), size, speed or size, 0.0)
+        returns = SectionReturns(event, period, float(run.t[0]), size, speed or size, 0.0)
         points = returns._compute_points(run)
         returns.extent = float(np.sqrt(np.mean(np.sum(np.square(points - points.mean(axis=0)), axis=1))))
         return returns

@@ -32,7 +32,8 @@ INITIAL_DISTANCE = 1e-6  # initial distance of neighbours: far above integration
 MAX_CHANGE_AT_REST = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
 SEED = 1  # random seed of the first difference
 MAX_GROWTH = 1e3  # times INITIAL_DISTANCE: if the distance is larger, the interval is repeated with half its length
-MERGED = 1e-8  # times INITIAL_DISTANCE: closer runs count as merged, as where friction sticks; a new neighbour is drawn
+# times INITIAL_DISTANCE: closer runs count as merged, as where friction sticks; a new neighbour is drawn
+MERGED_DISTANCE = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,9 +140,9 @@ class SecondRun:
     n_merged: int = 0  # number of times that both runs became one
 
     def __post_init__(self) -> None:
-        """Draw the neighbour of the present state, and store it in `neighbour_state` and its distance in `distance`.
+        """Draw a neighbour of the current state; store it in `neighbour_state`, and its distance in `distance`.
 
-        It is called again after both runs have merged.
+        Called again after both runs have merged.
         """
         first = self.measure.draw_neighbour(self.state.t, flatten_state(self.state))
         self.neighbour_state = _replace_state_vector(self.state, first, self.state.memory.copy())
@@ -150,9 +151,9 @@ class SecondRun:
     def advance_to(self, t: float, is_shortest_interval: bool) -> tuple[Result, float] | None:
         """Advance both runs to t (s); return the first run and ln of the growth of their distance.
 
-        Return None, with nothing changed, if the distance grew or shrank too much, unless `is_shortest_interval`. After
-        merging, a new neighbour is drawn. The neighbour is scaled back if both have the same modes. Raises the error of
-        a failed run, and KeyboardInterrupt.
+        Return None, with nothing changed, if the distance changes by more than the factor MAX_GROWTH or exceeds
+        MAX_GROWTH INITIAL_DISTANCE, unless `is_shortest_interval`. After merging, a new neighbour is drawn. The
+        neighbour is scaled back if both have the same modes. Raises the error of a failed run, and KeyboardInterrupt.
         """
         begin = [self.state, self.neighbour_state]
         batch = self.simulation.simulate_many(
@@ -168,8 +169,8 @@ class SecondRun:
             flow = np.concatenate([run.v[-1], run.a[-1]])
             difference -= self.measure.project_on_flow(difference, flow) * flow
         distance = self.measure.compute_norm(difference)
-        if distance <= MERGED * INITIAL_DISTANCE:
-            log_growth = math.log(MERGED * INITIAL_DISTANCE / self.distance)
+        if distance <= MERGED_DISTANCE * INITIAL_DISTANCE:
+            log_growth = math.log(MERGED_DISTANCE * INITIAL_DISTANCE / self.distance)
             self.state, self.n_merged = run.final, self.n_merged + 1
             self.__post_init__()
             return run, log_growth
@@ -185,7 +186,7 @@ class SecondRun:
         return run, log_growth
 
     def _rescale_neighbour(self, difference: Array) -> None:
-        """Move the state `neighbour_state` to INITIAL_DISTANCE from the first, along the present `difference` (2n,).
+        """Move `neighbour_state` to INITIAL_DISTANCE from the first state, along the current `difference` (2n,).
 
         Internal states are scaled alike, and the new state is projected onto the constraints.
         """

@@ -26,7 +26,7 @@ ELEMENTS = {
     "torque": "M",
     "rotational_spring_damper": "M",
     "angle": "M",
-}  # of each kind the result that is its force or moment
+}
 MIN_DIVISOR = 1e-300  # N, N m: smallest divisor
 GROUND = PointInfo("", -1, -1, -1)
 Number = tuple[int, float]  # index into the parameter values p, or −1 and the value itself
@@ -106,9 +106,10 @@ def _build_force_table(source: KernelSource) -> ForceTable:
 
 
 def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
-    """Build the Element of a force element or drive of the file; return None for other kinds and unknown ends.
+    """Build the Element of a force element or drive of the file.
 
-    With one end, the ground is the first body.
+    With one end, the ground is the first body. The ends of moments are exchanged, since reported moments act on the
+    first body. Return None for other kinds, unknown ends, and friction whose direction is an expression.
     """
     bodies = {body.name: PointInfo("", body.index, -1, -1) for body in source.bodies}
     points_by_name = bodies | {point.name: point for point in source.points}
@@ -116,7 +117,7 @@ def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
         return None
     ends = [points_by_name[name] for name in part.ends]
     first, second = ends if len(ends) == 2 else (GROUND, ends[0])
-    if ELEMENTS[part.kind] == "M" and len(ends) == 2:  # what is reported acts on the first body
+    if ELEMENTS[part.kind] == "M" and len(ends) == 2:  # reported moments act on the first body
         first, second = second, first
     if part.kind == "dry_friction":
         x, y = (_resolve_number(source, f"forces.{part.name}.direction.{axis}") for axis in "xy")
@@ -131,15 +132,15 @@ def _resolve_number(source: KernelSource, address: str) -> Number | None:
     """Return the number at an address of the file as (index into p, 0) or (−1, value); None if it is an expression."""
     if address in source.slot_index:
         return source.slot_index[address], 0.0
-    written = [json.loads(expression.tree) for expression in source.written if expression.address == address]
-    return (-1, float(written[0])) if written and isinstance(written[0], int | float) else None
+    trees = [json.loads(expression.tree) for expression in source.written if expression.address == address]
+    return (-1, float(trees[0])) if trees and isinstance(trees[0], int | float) else None
 
 
 def compute_newton_euler_residuals(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation) -> Array:
-    """Return the residuals of each body's Newton–Euler equations at samples, relative to the largest term.
+    """Return the residuals of each body's Newton–Euler equations at samples, relative to the largest force or moment.
 
-    The shape is (k, n_bodies) for coordinates `q` (k, n) and the `evaluation` of the k samples; bodies that are left
-    out have 0.
+    The largest one is taken over all samples and bodies. The shape is (k, n_bodies) for coordinates `q` (k, n) and the
+    `evaluation` of the k samples. Bodies that are left out have 0.
     """
     table, n = get_force_table(compiled.source), len(q)
     residuals = np.zeros((n, len(compiled.source.bodies)))

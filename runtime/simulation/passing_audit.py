@@ -1,6 +1,6 @@
 """Decide by few comparisons whether the samples of a short run pass all checks of audit.py; most runs do.
 
-Then no finding is built before somebody reads the run's diagnostics. Where a comparison does not decide, the findings
+Findings are then built only when the diagnostics of the run are read. Where a comparison does not decide, the findings
 of audit.py do.
 """
 
@@ -16,26 +16,27 @@ from gudgeon.contract.boundary import AUDIT_FAILS, AUDIT_ON, N_CLEARANCE_COLUMNS
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.evaluation import FIRST, Evaluation, view_evaluation
+from gudgeon.model.evaluation import FIRST_CHUNK_SAMPLES, Evaluation, view_evaluation
 from gudgeon.simulation.audit import (
     LIMITS,
     MIN_CALLS_OF_LONG_RUN,
     MIN_SAMPLES,
     check_energy_balance,
-    choose_samples,
-    draw_samples,
     has_failed_finding,
     list_checks_left_out,
+    select_audit_samples,
+    select_audit_samples_of_run,
 )
 from gudgeon.simulation.sample_checks import compute_energy_balance
 
-MAX_SAMPLES = FIRST  # which C evaluates in one call
+MAX_SAMPLES = FIRST_CHUNK_SAMPLES  # which C evaluates in one call
 
 
 def is_short_run(problem: Problem, trajectory: Trajectory) -> bool:
-    """Return whether ShortRunSamples may decide: few samples and steps, run to its end by C, in a scene with forces.
+    """Return whether ShortRunSamples may audit a run.
 
-    The equations of single bodies are checked in runs of more steps only.
+    The run has 1 to MAX_SAMPLES samples and at most MIN_CALLS_OF_LONG_RUN evaluations; longer runs need the equations
+    of single bodies. C integrated it to its end, without a progress callback. The scene has all masses and reactions.
     """
     return (
         0 < len(trajectory.t) <= MAX_SAMPLES
@@ -49,7 +50,7 @@ def is_short_run(problem: Problem, trajectory: Trajectory) -> bool:
 
 
 class ShortRunSamples:
-    """Evaluate all samples of a short run at `times` (N,), s, and compare what the audit compares.
+    """Evaluate all samples of a short run at `times` (N,), s, and audit them without findings.
 
     Raises SingularError for a sample without accelerations.
     """
@@ -57,7 +58,7 @@ class ShortRunSamples:
     def __init__(self, problem: Problem, trajectory: Trajectory, times: Array) -> None:
         compiled, x, N = problem.compiled, trajectory, len(trajectory.t)
         self.problem, self.trajectory = problem, trajectory
-        self.layout = layout = _find_layout(compiled, N, problem.method)
+        self.layout = layout = _compute_block_layout(compiled, N, problem.method)
         self.block = block = np.empty(layout.n_total)
         self.values = values = block[: layout.n_values]
         values.fill(np.nan)
@@ -78,8 +79,11 @@ class ShortRunSamples:
         """Return the evaluated quantities as views of a new block."""
         return view_evaluation(self.problem.compiled, self.values.copy(), len(self.trajectory.t))
 
-    def pass_audit(self) -> bool:
-        """Return whether no check of the run fails, neither of its steps nor of its samples; False: unknown."""
+    def passes_audit(self) -> bool:
+        """Return whether no check of the steps and samples of the run fails; False: not known, findings are needed.
+
+        It is False for audit="full", for a contact or film force at any sample, and for values that are not finite.
+        """
         problem, layout = self.problem, self.layout
         if not problem.audit:
             return True
@@ -87,8 +91,8 @@ class ShortRunSamples:
             return False
         clearances = self.values[layout.clearances].reshape(-1, N_CLEARANCE_COLUMNS)
         if np.count_nonzero(clearances[:, :2]) or not math.isfinite(np.add.reduce(self.values)):
-            return False  # a force, which only a contact or a film may have
-        return self._begins_at_start() and self._balances_energy() and self._passes_at_drawn_samples()
+            return False  # forces of contacts and films need checks of their own
+        return self._begins_at_start() and self._balances_energy() and self._passes_sample_checks()
 
     def _balances_energy(self) -> bool:
         """Return whether the energy balance is within its tolerance; in a run of few samples it is not checked."""
@@ -101,7 +105,10 @@ class ShortRunSamples:
         return not has_failed_finding(tuple(findings))
 
     def _begins_at_start(self) -> bool:
-        """Return whether the first sample is surely nearer to the start than allowed; a resumed run need not be."""
+        """Return whether the first sample differs from the start by no more than `problem.allowed_start_error`.
+
+        Resumed runs and scenes with rigid contacts pass. Without an allowed error, return False.
+        """
         problem, motion = self.problem, self.motion
         if problem.state is not None or problem.compiled.source.rigid:
             return True
@@ -112,12 +119,12 @@ class ShortRunSamples:
         error[1] -= problem.v
         return b"\0" not in (np.abs(error) <= problem.allowed_start_error).tobytes()  # quicker than all()
 
-    def _passes_at_drawn_samples(self) -> bool:
-        """Return whether power, torques and constraint equations at the drawn samples are within the limits."""
+    def _passes_sample_checks(self) -> bool:
+        """Return whether the checks in C of power, torques and constraint equations pass at pseudo-random samples."""
         problem, x, compiled, layout = self.problem, self.trajectory, self.problem.compiled, self.layout
         t, state, n, pointer = self.t, self.state, len(x.t), compiled.pointer
         if n > layout.n_undrawn or problem.state is not None:
-            samples = draw_samples(problem, x)
+            samples = select_audit_samples_of_run(problem, x)
             n = len(samples)
             drawn = [np.ascontiguousarray(array[samples]) for array in (x.t, *self.motion, x.memory)]
             t, *drawn_state = (pointer(array) if array.size else self.p for array in drawn)
@@ -129,8 +136,8 @@ class ShortRunSamples:
         return b"\0" not in (errors <= layout.limits).tobytes()  # quicker than all()
 
 
-class _Layout(NamedTuple):
-    """Hold where quantities lie in the block of a run's samples, and what else depends on the scene alone."""
+class _BlockLayout(NamedTuple):
+    """Hold the offsets of quantities in the block of a run's samples, and the limits of the checks."""
 
     offsets: tuple[int, ...]  # of each field of an Evaluation
     clearances: slice  # of the field of joints with play
@@ -143,20 +150,20 @@ class _Layout(NamedTuple):
 
 
 @cache_by_values
-def _find_layout(compiled: CompiledModel, n_samples: int, method: str) -> _Layout:
-    """Return the layout of the block of so many samples."""
+def _compute_block_layout(compiled: CompiledModel, n_samples: int, method: str) -> _BlockLayout:
+    """Return the layout of the block of a run with `n_samples` samples, and the limits of its checks for `method`."""
     source, names = compiled.source, [name for name, *_ in compiled.field_shapes]
     ends = np.cumsum([0, *(n_samples * width for *_, width in compiled.field_shapes)]).tolist()
     first_error = ends[-1] + 2 * n_samples * compiled.n
     clearances, energy = (slice(ends[k], ends[k + 1]) for k in map(names.index, ("clearance", "energy")))
     left_out = list_checks_left_out(source, method)
-    return _Layout(
+    return _BlockLayout(
         tuple(ends[:-1]),
         clearances,
         energy,
         ends[-1],
         first_error,
         first_error + n_samples * len(LIMITS),
-        len(choose_samples(MAX_SAMPLES, AUDIT_ON, 0)),
+        len(select_audit_samples(MAX_SAMPLES, AUDIT_ON, 0)),
         np.array([np.inf if check in left_out else AUDIT_FAILS * limit for check, limit in LIMITS.items()]),
     )

@@ -29,12 +29,13 @@ NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))
 # matrix from values at the points to Chebyshev coefficients
 COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))
 FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # matrix from coefficients to values at 129 points
-ROUNDS, AT_AN_END = 12, 3  # largest number of refinements, and the number if the maximum is at an end
-MAX_INTERVALS = 16  # intervals of a block that are searched; the most promising first
+# largest number of refinements of a maximum, and that of a maximum at an end of its interval
+MAX_REFINEMENTS, MAX_REFINEMENTS_AT_END = 12, 3
+MAX_INTERVALS = 16  # intervals of a block that are searched; those with the largest estimates first
 PEAK_TOL = 1e-14  # of a value: a smaller increase is rounding, and the earlier time is reported
-RESOLVED = 2e-4  # of the largest value of a block: allowed error of states predicted from their neighbours
+RESOLUTION_TOL = 2e-4  # of the largest value of a block: allowed error of states predicted from their neighbours
 # matrix from five states to the values at INNER_FRACTION of their four intervals
-PREDICT = np.vander(np.arange(4) + INNER_FRACTION, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))
+PREDICTION_MATRIX = np.vander(np.arange(4) + INNER_FRACTION, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))
 ACCELERATION_ROUNDING = 5e-9  # of the largest acceleration of its kind: smaller values are rounding
 INTERVAL_TOL = 1e-6  # relative difference up to which intervals of a step count as equal
 MAX_HALVED_INTERVALS = 4096  # largest number of intervals that are evaluated for one series of a block
@@ -122,10 +123,10 @@ class PeakSearch:
         return tuple(message)
 
     def _update_peaks(self, name: str, is_error: bool, interpolants: list[RunInterpolant]) -> None:
-        """Update the peaks of one series, or if `is_error` of its error, from the present block of states.
+        """Update the peaks of one series, or if `is_error` of its error, from the current block of states.
 
-        `interpolants`: that of the run, then for errors that of the other scene. At most MAX_INTERVALS intervals
-        between states are searched, the most promising first.
+        `interpolants`: that of the run, then for errors that of the other scene. Intervals whose states do not resolve
+        the series are halved first. Then at most MAX_INTERVALS intervals are searched, in the order of the estimates.
         """
         values = _subtract_compared_series([path.evaluate_series_at_states(name) for path in interpolants])
         t, inner = self.interpolant.steps.t, self.interpolant.is_within_step
@@ -135,7 +136,7 @@ class PeakSearch:
         )
         if not is_error:
             for k in np.flatnonzero(
-                _find_unresolved_intervals(self.interpolant, name, values, RESOLVED * scale)
+                _find_unresolved_intervals(self.interpolant, name, values, RESOLUTION_TOL * scale)
             ).tolist():
                 self._refine_unresolved_interval(name, k, scale)
         for sign in (1, -1):
@@ -163,7 +164,7 @@ class PeakSearch:
         and end (s) of the part that is searched; None: the whole interval.
         """
         low, high = time_range or self.interpolant.steps.t[k : k + 2].tolist()
-        for turn in range(ROUNDS):
+        for turn in range(MAX_REFINEMENTS):
             times = low + NODES * (high - low)
             values = key[2] * _subtract_compared_series(
                 [path.evaluate_series_between_states(k, times, key[0]) for path in interpolants]
@@ -177,7 +178,7 @@ class PeakSearch:
                     top, fraction = _find_polynomial_maximum(parts)
                     self._store_peak(key, top, low + fraction * (high - low))
                     break
-            if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= AT_AN_END):
+            if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= MAX_REFINEMENTS_AT_END):
                 break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
 
@@ -195,11 +196,11 @@ class PeakSearch:
             values = self.interpolant.evaluate_series_between_states(k, times.ravel(), name).reshape(times.shape)
             is_finite = np.asarray(np.isfinite(values).all(axis=1))
             coefficients = np.where(is_finite[:, np.newaxis], values, 0.0) @ COEFFICIENTS.T
-            is_unresolved = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLVED * scale
+            is_unresolved = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLUTION_TOL * scale
             is_unresolved &= times[:, 1] > times[:, 0]
             for j in np.flatnonzero(is_finite & ~is_unresolved).tolist():
                 for sign in (1, -1):
-                    if _find_polynomial_maximum(sign * coefficients[j])[0] + RESOLVED * scale > self._get_peak(
+                    if _find_polynomial_maximum(sign * coefficients[j])[0] + RESOLUTION_TOL * scale > self._get_peak(
                         name, sign
                     ):
                         self._refine_maximum((name, False, sign), k, [self.interpolant], scale, (low[j, 0], high[j, 0]))
@@ -262,18 +263,18 @@ def _find_unresolved_intervals(
     are not tested.
     """
     is_unresolved = np.zeros(max(len(values) - 1, 0), bool)
-    if len(values) < len(PREDICT) + 1 or interpolant.is_kinematic or interpolant.has_films:
+    if len(values) < len(PREDICTION_MATRIX) + 1 or interpolant.is_kinematic or interpolant.has_films:
         return is_unresolved
     windows = np.lib.stride_tricks.sliding_window_view
     h = np.where(interpolant.is_within_step, np.diff(interpolant.steps.t), np.nan)
     with np.errstate(invalid="ignore"):
-        four = windows(h, len(PREDICT))
+        four = windows(h, len(PREDICTION_MATRIX))
         equal = np.flatnonzero(np.abs(four - four[:, :1]).max(axis=1) < INTERVAL_TOL * four[:, 0])
         if len(equal):
-            inner_values = windows(interpolant.evaluate_series_at_inner_fraction(name), len(PREDICT))[equal]
-            predicted = windows(values, len(PREDICT) + 1)[equal] @ PREDICT.T
+            inner_values = windows(interpolant.evaluate_series_at_inner_fraction(name), len(PREDICTION_MATRIX))[equal]
+            predicted = windows(values, len(PREDICTION_MATRIX) + 1)[equal] @ PREDICTION_MATRIX.T
             for k in equal[(np.abs(inner_values - predicted) > tolerance).any(axis=1)].tolist():
-                is_unresolved[k : k + len(PREDICT)] = True
+                is_unresolved[k : k + len(PREDICTION_MATRIX)] = True
     return is_unresolved
 
 
@@ -291,6 +292,6 @@ def _estimate_maxima(t: Array, values: Array, is_within_step: NDArray[np.bool_])
         curvature = np.abs(np.diff(differences / h)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
         curvature = np.where(is_within_step[1:] & is_within_step[:-1] & np.isfinite(curvature), curvature, 0.0)
         curvature_term = 2.0 * np.maximum(np.append(curvature, 0.0), np.insert(curvature, 0, 0.0)) * h**2
-        top = 0.5 + differences / curvature_term  # share of the part at which the parabola is highest
+        top = 0.5 + differences / curvature_term  # fraction of the interval at which the parabola has its maximum
         height = values[:-1] + differences * top + 0.5 * curvature_term * top * (1.0 - top)
     return np.where(is_within_step & (top > 0.0) & (top < 1.0) & np.isfinite(height), height, estimates)

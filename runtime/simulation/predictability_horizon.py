@@ -25,7 +25,7 @@ import numpy as np
 
 from gudgeon.assembly.linkage import compute_mechanism_size, project_state
 from gudgeon.errors import BadValueError, SolverError
-from gudgeon.integrators.adaptive import SMALLEST, compute_error_lengths
+from gudgeon.integrators.adaptive import MIN_RTOL, compute_error_lengths
 from gudgeon.language.argument_checks import check_instance
 from gudgeon.model.compiled import Array
 
@@ -35,13 +35,12 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import SlidingRequest
     from gudgeon.simulation.simulation import Simulation
 
-APART = 0.25  # of the clearance: difference at which runs count as parted
-PERTURBATION = (
-    1e-12  # relative change of the start: about the error of one step at this tolerance (integrators/adaptive.py)
-)
+MAX_PATH_DIFFERENCE = 0.25  # of the clearance: difference at which runs count as parted
+# relative change of the start: about the error of one step at this tolerance (integrators/adaptive.py)
+PERTURBATION = 1e-12
 RTOL_RATIO, STEP_RATIO = 100.0, 4.0  # factors of tolerance and of step between the run and the more accurate one
-UNFINISHED = "interrupted while its horizon was sought: the run is complete, how far to trust it is not known"
-TIMES = 4000  # compared times between 4^k s and 4^(k + 1) s: the horizon's resolution
+UNFINISHED = "interrupted during the search of its horizon: the run is complete, its predictability horizon is unknown"
+N_COMPARED_TIMES = 4000  # compared times between 4^k s and 4^(k + 1) s: the horizon's resolution
 MIN_INTERVAL = 1.0 / 256.0  # of the run's length, about: the end of the first compared interval
 
 
@@ -61,7 +60,7 @@ def add_horizon(simulation: Simulation, run: Result, progress: Progress | None =
 
 
 def compute_horizon(
-    simulation: Simulation, run: Result, progress: Progress | None = None, max_difference: float = APART
+    simulation: Simulation, run: Result, progress: Progress | None = None, max_difference: float = MAX_PATH_DIFFERENCE
 ) -> float:
     """Return the time (s) up to which a run agrees with its perturbed repetitions; infinity if it does so to its end.
 
@@ -90,7 +89,7 @@ def compute_horizon(
 
 
 def _yield_compared_times(t0: float, t1: float) -> Iterator[Array]:
-    """Yield arrays of TIMES equidistant times (s), each ending four times as far from t0 as the array before.
+    """Yield arrays of N_COMPARED_TIMES equidistant times (s), each ending four times as far from t0 as the previous.
 
     An array covers the interval from the end of the one before, or t0, which it excludes, to its own end. The first
     ends at t0 + 4^k s, with the largest k for which 4^k ≤ MIN_INTERVAL (t1 − t0). The last reaches t1 or beyond.
@@ -99,7 +98,7 @@ def _yield_compared_times(t0: float, t1: float) -> Iterator[Array]:
     low, last = 0.0, False
     while not last:
         last = not t0 + top < t1
-        yield t0 + np.linspace(low, top, TIMES + 1)[1:]
+        yield t0 + np.linspace(low, top, N_COMPARED_TIMES + 1)[1:]
         low, top = top, 4.0 * top
 
 
@@ -147,9 +146,10 @@ def repeat_run(
 
 
 def _compare_runs(simulation: Simulation, runs: list[Result], max_difference: float) -> tuple[float, bool]:
-    """Return the last time (s) at which all runs agree with the first, and whether they differ later.
+    """Return the last time (s) at which the second and third run agree with the first, and whether they differ later.
 
-    Runs agree within `max_difference`, and are compared at the samples that all have. A run that ends early differs.
+    Runs agree within `max_difference`, and are compared at the samples that all have. A run that ends early differs. If
+    the first samples differ, the time is that of the start.
     """
     count = min(len(run.t) for run in runs)
     paths = [_compute_compared_coordinates(simulation, run)[:count] for run in runs]
@@ -172,10 +172,10 @@ def _compute_compared_coordinates(simulation: Simulation, run: Result) -> Array:
             for axis in ("ex", "ey")
         ]
         return np.stack(scaled, axis=1)
-    return np.asarray(run.q / np.where(_find_angles(run), 1.0, compute_mechanism_size(simulation.compiled, run.p)))
+    return np.asarray(run.q / np.where(_get_angle_mask(run), 1.0, compute_mechanism_size(simulation.compiled, run.p)))
 
 
-def _find_angles(run: Result) -> Any:
+def _get_angle_mask(run: Result) -> Any:
     """Return a mask (n,) of the coordinates that are angles."""
     return np.array([name.endswith(".theta") for name in run.source.coordinates])
 
@@ -191,7 +191,7 @@ def check_simulation_of_run(simulation: Simulation, run: Result, function_name: 
     check_instance(simulation, "simulation", Simulation)
     check_instance(run, "run", Result)
     if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
-        raise BadValueError(f"{function_name}: expected the simulation whose run it is")
+        raise BadValueError(f"{function_name}: the run is of another file or scene: expected the simulation of the run")
 
 
 def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -203,12 +203,12 @@ def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     from gudgeon.simulation.arguments import METHODS
 
     d = run.diagnostics
-    method = d.method if d.method in METHODS else "adaptive"  # what its steps were made with is not one name
+    method = d.method if d.method in METHODS else "adaptive"  # the methods of a run by "auto" are joined by "+"
     settings = {"method": method, "parameters": dict(run.final.parameters)}
     if math.isfinite(d.step):
         return settings | {"step": d.step}, settings | {"step": d.step / STEP_RATIO}
-    # at the tightest tolerance that there is, the other run is the looser one
-    rtol = d.rtol / RTOL_RATIO if d.rtol >= RTOL_RATIO * SMALLEST else d.rtol * RTOL_RATIO
+    # at the tightest allowed tolerance, the other run has the looser one
+    rtol = d.rtol / RTOL_RATIO if d.rtol >= RTOL_RATIO * MIN_RTOL else d.rtol * RTOL_RATIO
     return settings | {"rtol": d.rtol}, settings | {"rtol": rtol}
 
 
@@ -218,7 +218,7 @@ def _compute_perturbation_sizes(simulation: Simulation, run: Result) -> Array:
     It is the error tolerance at the relative tolerance PERTURBATION.
     """
     length, size = compute_error_lengths(simulation.compiled, run.p)
-    of_q = PERTURBATION * np.where(_find_angles(run), length / size, length)
+    of_q = PERTURBATION * np.where(_get_angle_mask(run), length / size, length)
     return np.concatenate([of_q, np.full(len(of_q), PERTURBATION)])
 
 
@@ -235,7 +235,7 @@ def _perturb_start(simulation: Simulation, run: Result, start: State) -> State:
 
     It is projected onto the constraints.
     """
-    angle, n = _find_angles(run), len(start.q)
+    angle, n = _get_angle_mask(run), len(start.q)
     random = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
     displacement = random * _compute_perturbation_sizes(simulation, run)

@@ -40,7 +40,7 @@ from gudgeon.simulation.arguments import (
     select_method,
 )
 from gudgeon.simulation.audit import parse_audit_level
-from gudgeon.simulation.hidden_jumps import may_jump
+from gudgeon.simulation.hidden_jumps import needs_jump_search
 from gudgeon.simulation.sample_audit import ReusableSampleAudit
 from gudgeon.simulation.sample_reader import SampleReader
 from gudgeon.simulation.step_observers import check_requested_peaks
@@ -76,7 +76,7 @@ class RunSetup:
     ) -> RunSetup:
         """Check the arguments and return them; `settings`: method, rtol, step, stop and audit. Raises InputError.
 
-        `fixed` None: no fixed parameters.
+        Waits until the optimized library of the scene is compiled. `fixed` None: no fixed parameters.
         """
         scene = simulation.of_method(check_text(settings["method"], "method"))
         source, step = scene.source, settings["step"]
@@ -99,9 +99,16 @@ class RunSetup:
 
     @property
     def needs_simulate(self) -> bool:
-        """Return whether runs need checks or a time loop in Python, which `simulate` has."""
+        """Return whether runs need `simulate`, whose checks or time loop are in Python.
+
+        They do for methods with a time loop in Python, redundant constraint equations, and drives that may jump.
+        """
         compiled = self.scene.compiled
-        return self.method in PYTHON_TIME_LOOPS or bool(list_redundant_equations(compiled)) or may_jump(compiled.source)
+        return (
+            self.method in PYTHON_TIME_LOOPS
+            or bool(list_redundant_equations(compiled))
+            or needs_jump_search(compiled.source)
+        )
 
     @property
     def has_journal_positions(self) -> bool:
@@ -110,7 +117,7 @@ class RunSetup:
         return bool(source.start_apart) or any(joint.is_corner for joint in source.clearances)
 
     def make_run(self, t: Array, steps: Array) -> ReusableRun:
-        """Return the memory for runs with sample times t (N,) and fixed steps (N_ROWS,), both in s."""
+        """Allocate and return the ReusableRun for sample times t (N,) and fixed steps (N_ROWS,), both in s."""
         return ReusableRun(self.columns, t, self.method, steps, self.rtol, self.stop, self.audit)
 
     def evaluate_step(self, k: int, duration: float) -> float:
@@ -229,7 +236,10 @@ class PreparedRun:
         return t, int(not is_requested)
 
     def _update_times(self, k: int) -> None:
-        """Compute times and fixed step of the run in row k where they depend on its parameters. Raises InputError."""
+        """Update sample times and fixed step of the run in row k where they depend on its parameters.
+
+        The arrays that C reads are changed in place. Raises InputError.
+        """
         assert self._run
         if self._has_variable_times:
             t, _ = self._compute_times(k)
@@ -240,11 +250,12 @@ class PreparedRun:
     def _run_one(self, x: Array) -> Array:
         """Return the series (n_series, n_samples) of the run with parameter values x (n_parameters,).
 
-        The extremes of the requested peaks are stored in `extremes`. Raises the error of a run that fails.
+        The extremes of the requested peaks are stored in `extremes`. `simulate` runs scenes that need it, values that
+        are not valid, and runs whose audit fails. Raises the error of a run that fails.
         """
         self.failures, run = {}, self._run
         if self._peaks:
-            self.extremes = np.full((len(self._peaks), 2), np.nan)  # until the run is over
+            self.extremes = np.full((len(self._peaks), 2), np.nan)  # set at the end of the run
         if run is None:
             return self._simulate(x)
         k = run.next_row
@@ -257,7 +268,7 @@ class PreparedRun:
         status = run.integrate_row(k)
         if status not in (0, ENDED):
             raise run.build_error(k)
-        if self._sample_audit.has_failed(k):
+        if self._sample_audit.audit_samples(k):
             return self._simulate(x)
         return self._reader.read_row(k)
 
@@ -266,9 +277,10 @@ class PreparedRun:
         return {"t_end": self._t_end, "output": self._output, "peaks": self._peaks, **self._setup.settings}
 
     def _simulate(self, x: Array) -> Array:
-        """Return what `_run_one` returns, by `simulate`, with its checks and errors.
+        """Run `simulate` with parameter values x (n_parameters,), and return the series (n_series, n_samples).
 
-        Raises KeyboardInterrupt after Ctrl-C, and the errors of `simulate`.
+        `extremes` and variable sample times are updated. Raises KeyboardInterrupt after Ctrl-C, and the errors of
+        `simulate`.
         """
         result = self._setup.scene.simulate(parameters=self._setup.get_parameters(x), **self._get_run_arguments())
         if result.diagnostics.interrupted:
@@ -277,7 +289,7 @@ class PreparedRun:
             self._setup.columns.compute_row(x, 0)
             self._t[:] = _check_count(self._compute_times(0)[0], len(self._t))
         self.extremes = np.array([[peak.min, peak.max] for peak in map(result.peak, self._peaks)]).reshape(-1, 2)
-        return _fill_rows(result, self.series, len(self._t) - self._n_skipped)
+        return _pad_series(result, self.series, len(self._t) - self._n_skipped)
 
     def _run_many(self, x: Array) -> Array:
         """Return the series (n_runs, n_series, n_samples) of runs with parameter values x (n_runs, n_parameters).
@@ -321,13 +333,13 @@ def _check_count(samples: Array, n_samples: int) -> Array:
 
 
 def _check_threads(threads: Any) -> int:
-    """Return the number of threads; the cores for None. Raises BadValueError."""
+    """Return the number of threads; for None, that of the available cores. Raises BadValueError below 1."""
     if threads is not None and (not is_integer(threads) or threads < 1):
         raise BadValueError(f"threads is {threads!r}: expected a number of threads, 1 or more")
     return count_available_threads() if threads is None else int(threads)
 
 
-def _fill_rows(result: Result, names: Iterable[str], n_samples: int) -> Array:
+def _pad_series(result: Result, names: Iterable[str], n_samples: int) -> Array:
     """Return series of a result as an array (n_series, n_samples), NaN after its last sample."""
     columns = [result[name] for name in names]
     values = np.full((len(columns), n_samples), np.nan)

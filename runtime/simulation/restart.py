@@ -1,4 +1,4 @@
-"""Resume a run from the `final` state of another run: check that the state fits, and choose the parameter values.
+"""Resume a run from the `final` state of another run (restart): check the state, and merge the parameter values.
 
 A state of another mechanism, scene, version of the file or other overrides is refused. The resumed run uses the state's
 parameter values unless it is given others; then a note says so. The formulation does not matter: a state has the
@@ -29,7 +29,7 @@ from gudgeon.results.results import State
 
 MAX_VIOLATION = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
 # code of an open contact, and a hint for messages
-FREE, HINT_FINAL = 0, "the `final` of a run has both as they belong together"
+FREE, HINT_FINAL = 0, "the `final` of a run has consistent contact codes and discrete states"
 STATE_ARRAYS = {"q": FLOAT, "v": FLOAT, "state": CODE, "memory": FLOAT}  # arrays of a State and their types
 MAX_REPORTED = 6  # largest number of parameters or constraint equations that a message names
 
@@ -70,7 +70,7 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
     if single or hasattr(start, "final"):
         return [copy_checked_state(source, start)] * n_runs
     given_states: list[State] = []
-    for given_state in start:  # which may have any number of entries: an error ends the loop at the first
+    for given_state in start:  # it may be long: an error ends the loop at the first wrong entry
         given_states.append(given_state if isinstance(given_state, State) else copy_checked_state(source, given_state))
     states = _copy_similar_states(source, given_states) or [copy_checked_state(source, x) for x in given_states]
     if len(states) != n_runs and 1 not in (n_runs, len(states)) or not states:
@@ -78,18 +78,17 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
         raise BadValueError(message, hint="one state, or one for every run")
     times = sorted({state.t for state in states})
     if len(times) > 1:
-        message = (
-            f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch have their times together"
-        )
+        message = f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch start at one time"
         raise BadValueError(message, hint="states at the same time, or a batch for each time")
     return states * n_runs if len(states) == 1 else states
 
 
 def _copy_similar_states(source: KernelSource, given_states: list[Any]) -> list[State]:
-    """Return checked copies of two or more states that differ in their arrays alone, all at once.
+    """Return checked copies of two or more states that differ in their arrays only, checked together to save time.
 
-    Return [] for other states, and if an array is not as C needs it: `copy_checked_state` then decides state by state.
-    Raises its errors for the first state, and BadValueError for contradicting discrete states.
+    Return [] for other states, and if an array has another type or shape or is not finite: the caller then checks
+    state by state. Raises the errors of `copy_checked_state` for the first state, and BadValueError for contradicting
+    discrete states.
     """
     if len(given_states) < 2 or any(type(given_state) is not State for given_state in given_states):
         return []
@@ -132,9 +131,9 @@ def _check_discrete_states(source: KernelSource, state: Array, discrete_states: 
         zip(source.clearances, state.tolist(), discrete_states.tolist(), strict=False)
     ):
         if code == FREE and not math.isnan(rate):
-            message, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
+            message, expected = f"is {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
         elif code != FREE and not math.isfinite(rate):
-            message, expected = f"is {rate:g} while start.state[{k}] is {code}", "the rate (m/s) with which it closed"
+            message, expected = f"is {rate:g} while start.state[{k}] is {code}", "the approach speed (m/s) of its onset"
         else:
             continue
         raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=HINT_FINAL)
@@ -170,12 +169,12 @@ def _check_state_origin(source: KernelSource, start: State) -> None:
         changed = _list_changed_laws_and_tables(source, start)
         if changed:
             message = f"start: this state was computed with another {' and another '.join(changed)}"
-            hint = "go on with what it was computed with, or run this one from its start"
+            hint = "resume with the laws and tables of the state, or run this simulation from its own start"
             raise BadValueError(message, hint=hint)
         raise BadValueError(
-            f"start: this state belongs to another mechanism: the file of {source.mechanism} was another one"
+            f"start: this state belongs to another mechanism: the file of {source.mechanism} has changed"
             f" (SHA-256 {start.sha256[:12]}…, now {source.whole_sha256[:12]}…)",
-            hint="go on with the file that it was computed with, or run this one from its start",
+            hint="resume with the file of the state, or run this simulation from its own start",
         )
     if start.sha256 and tuple(start.overrides) != source.overrides:
         raise BadValueError(
@@ -205,7 +204,8 @@ def merge_parameters(
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Return values and mask (n_slots,) of the run-time parameters given by state, arguments and contours, and notes.
 
-    Parameters of the state hold unless `parameters` or `contour` give them anew; a note then lists those that changed.
+    Parameters of the state hold unless `parameters` or `contour` set them again; a note then lists those that changed.
+    Notes on choices are returned too.
     """
     given, is_given = read_given_parameters(compiled.source, parameters)
     set_contours(compiled.source, contour, given, is_given)
@@ -237,7 +237,7 @@ def merge_parameters(
         mask,
         (
             *selected,
-            f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(changes)}{more}",
+            f"resumed at t = {start.t:.9g} s with other parameter values: {', '.join(changes)}{more}",
         ),
     )
 
@@ -246,18 +246,18 @@ def check_resumed_state(compiled: CompiledModel, start: State, p: Array) -> None
     """Raise AssemblyError if the state to resume from violates the constraint equations with parameter values p."""
     if message := _format_violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
         raise AssemblyError(
-            f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {message} are "
-            "open by so much\n"
-            "  other lengths close elsewhere, and a drive whose value hangs on t and a changed number stands elsewhere"
-            " at that time: write it so that it goes on from there, or run from the scene's own start"
+            f"start: the state at t = {start.t:.9g} s violates constraint equations with these parameter values:"
+            f" {message}\n"
+            "  other lengths have another assembly, and a drive that depends on t and a changed parameter has another"
+            " value at that time: write it so that it continues from the state, or run from the scene's own start"
         )
 
 
 def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], bool]:
-    """Return a function that tests positions as `check_resumed_state` does, from values that are known.
+    """Return a function that tests positions as `check_resumed_state` does, from known residuals.
 
-    It takes Φ of the closed linkage (n_start_rows,) and the mechanism's size (m), and returns whether the constraint
-    equations are satisfied up to what a run leaves.
+    Its arguments are the residuals Φ at the start (n_start_rows,) and the mechanism's size (m). It returns whether the
+    constraint equations are violated by no more than MAX_VIOLATION.
     """
     start_rows, rows = [row.name for row in compiled.source.start_rows], compiled.source.rows
     indices = np.array([start_rows.index(row.name) for row in rows], dtype=np.intp)
@@ -277,11 +277,11 @@ def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], boo
 def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
     """Return a note if the state q, v (n,) at t (s) to resume from violates the constraints; else ().
 
-    Positions must satisfy Φ(t, q) = 0, velocities Φ_q q̇ = ν, up to the rounding of their terms. A run never leaves
-    such a state; one made by hand may be.
+    Positions must satisfy Φ(t, q) = 0, velocities Φ_q q̇ = ν, up to MAX_VIOLATION of size and terms. Final states of
+    runs do; states made by hand may not.
     """
     source = compiled.source
-    with np.errstate(all="ignore"):  # the run itself tells what is not finite
+    with np.errstate(all="ignore"):  # the run itself reports values that are not finite
         message = _format_violated_equations(compiled, p, compiled.phi(t, q, p))
         if not message:
             phi_q, nu = compiled.phi_q(t, q, p), compiled.nu(t, q, p)
@@ -290,21 +290,21 @@ def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array,
             )
     if not message:
         return ()
-    used = "the run takes the coordinates that it integrates, and closes the others anew"
+    used = "the run begins with its integrated coordinates, and solves the constraint equations for the others"
     if source.formulation == "full":
-        used = "the run begins with it as it stands"
+        used = "the run begins with this state unchanged"
     if not source.degrees_of_freedom:
-        used = "the run begins where its drives put it"
-    return (f"the state at t = {t:.9g} s is off the constraints, rows {message}: {used}",)
+        used = "the run begins at the position of its drives"
+    return (f"the state at t = {t:.9g} s violates constraint equations {message}: {used}",)
 
 
 def _format_violated_equations(
     compiled: CompiledModel, p: Array, residuals: Array, terms: Array | float = 0.0, unit_suffix: str = ""
 ) -> str:
-    """Return the names of constraint equations violated by more than a run leaves, as "rod.length (0.1 m)"; "" if none.
+    """Return the constraint equations violated by more than MAX_VIOLATION, as "rod.length (0.1 m)"; "" if none.
 
-    `residuals` (m,): residuals; `terms` (m,): sizes of their terms, which allow more; `unit_suffix`: "/s" for
-    velocities.
+    The limit is relative to the mechanism's size for lengths, plus `terms` (m,), the sizes of the terms. At most
+    MAX_REPORTED are named. `unit_suffix`: "/s" for velocities.
     """
     rows, size = compiled.source.rows, compute_mechanism_size(compiled, p)
     allowed = MAX_VIOLATION * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
@@ -318,5 +318,5 @@ def _format_violated_equations(
 
 
 def _format_value(value: float, slot: RuntimeParameter) -> str:
-    """Return a parameter value as text with its unit, or as the word that it stands for."""
+    """Return a parameter value as text with its unit, or the word that it represents for a choice."""
     return str(format_parameter(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()

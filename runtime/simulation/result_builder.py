@@ -28,9 +28,9 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_corner_penetration, compute_max_clearance
 from gudgeon.model.deferred_fields import find_deferred_function, make_with_deferred_fields
 from gudgeon.model.evaluation import Evaluation
+from gudgeon.model.file_expressions import find_unbounded_drive
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
-from gudgeon.model.written import find_unbounded_drive
 from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, get_run_date
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
@@ -43,11 +43,14 @@ from gudgeon.waiting.cancellation import POLL_INTERVAL_S
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
-APART = 0.01  # of the mechanism's size: constraint violations that are too large for drift
-MANY = 10_000  # steps of an explicit method that indicate a stiff film
-THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
-DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these fractions of c and of R are outside the model
-AFTER_CTRL_C = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
+MAX_DRIFT_OVER_SIZE = 0.01  # of the mechanism's size: constraint violations that are too large for drift
+MAX_EXPLICIT_STEPS = 10_000  # steps of an explicit method that indicate a stiff film
+MAX_FILM_RATIO = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
+MAX_DEPTH_OVER_CLEARANCE, MAX_DEPTH_OVER_RADIUS = (
+    0.5,
+    0.01,
+)  # penetrations beyond these fractions of c and of R are outside the model
+MAX_BALANCE_TIME_S = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
 
 
 def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: CheckedSamples | None) -> Diagnostics:
@@ -98,12 +101,16 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: Checke
 def _build_notes(
     compiled: CompiledModel, problem: Problem, trajectory: Trajectory, findings: tuple[Finding, ...]
 ) -> tuple[str, ...]:
-    """Return the notes of a run: warnings that a reader should know before trusting it. `findings`: of its audit."""
+    """Return the notes of a run for its diagnostics: warnings on start, events, model and audit, in a fixed order.
+
+    `findings`: of its audit.
+    """
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (dependent := find_dependent_equations(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
-            f"the start is a dead centre: rows {', '.join(dependent)} tie each other there; velocities that drives and"
-            " start.rates leave open were taken least: give a rate of each body that may move"
+            f"the start is a dead centre: constraint equations {', '.join(dependent)} depend on each other there;"
+            " velocities that drives and start.rates do not determine have the smallest norm: give a rate of each body"
+            " that may move"
         )
     notes += yield_missing_mass_note(compiled.source)
     if problem.stop and len(trajectory.events):
@@ -114,14 +121,15 @@ def _build_notes(
         notes.append(INTERRUPTED_NOTE)
     for event, t in trajectory.undefined_events:
         name = compiled.source.events[event].name
-        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
+        notes.append(f"event {name} is NaN at t = {t:.9g} s: where it is NaN, no zeros are found")
     if compiled.source.events and ":" in problem.method:
-        notes.append(f"events are not watched by method {problem.method}")
+        notes.append(f"method {problem.method} does not locate events")
     n_passed, first = trajectory.change_points
     if n_passed and not explain_missing_masses(compiled.source):
         notes.append(
-            f"{n_passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
-            " pass on the smooth branch; forces and torques there are not determined by the rows"
+            f"{n_passed} samples are at or near a change point (the first at t = {first:.9g} s): positions and"
+            " velocities continue on the smooth branch; the constraint equations do not determine forces and torques"
+            " there"
         )
     notes += _yield_unbounded_sample_note(compiled, problem, trajectory)
     notes += iterate_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
@@ -148,16 +156,16 @@ def yield_redundancy_note(source: KernelSource) -> Iterator[str]:
 
 
 def _yield_stiff_film_note(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
-    """Yield a note if a stiff film needed more than MANY adaptive steps in a scene with rigid contacts.
+    """Yield a note if a stiff film needed more than MAX_EXPLICIT_STEPS adaptive steps in a scene with rigid contacts.
 
     No implicit method fits such a scene. Called for scenes with rigid contacts only.
     """
     films = [joint.name for joint in source.clearances if joint.film]
-    if films and counts.steps > MANY and math.isinf(problem.step):
+    if films and counts.steps > MAX_EXPLICIT_STEPS and math.isinf(problem.step):
         yield (
             f"{counts.steps} steps: the film in {', '.join(films)} is stiff, and no implicit method fits a scene whose"
-            f" contact in {source.rigid[0]} is a constraint (newton_restitution): a contact law that gives there"
-            " (hertz with a stiffness) lets method auto take long steps"
+            f" contact in {source.rigid[0]} is a constraint (newton_restitution): with an elastic contact law there"
+            " (hertz with a stiffness), method auto makes long steps"
         )
 
 
@@ -173,33 +181,34 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
     if largest.max() > 100.0 * np.median(largest) and (drive := find_unbounded_drive(compiled, problem.p, t)):
         yield (
             f"the second rate of drive {drive} is unbounded at t = {t:.9g} s: accelerations, forces and torques of that"
-            " sample mean nothing: write the drive with powers of 2 and more, or take samples at other times"
+            " sample are not meaningful: write the drive with powers of 2 and more, or request samples at other times"
         )
 
 
 def may_exceed_validity_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
     """Return a mask (n_runs,) of the runs of a batch that may have left the range of validity of their model.
 
-    A run may have left it if its constraint error exceeds APART of the mechanism's size, or if the peak eccentricity of
-    a joint exceeds its clearance (THIN of it for a joint with a film only). `yield_range_notes` then tests the run.
-    Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max` (n_runs,), peaks (n_runs, n_clearances, 3).
+    A run may have left it if its constraint error exceeds MAX_DRIFT_OVER_SIZE of the mechanism's size, or if the peak
+    eccentricity of a joint exceeds its clearance (MAX_FILM_RATIO of it for a joint with a film only).
+    `yield_range_notes` then tests the run. Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max`
+    (n_runs,), peaks (n_runs, n_clearances, 3).
     """
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
-    least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
-    return (phi_max > APART * size) | (e_max > least * c).any(axis=1)
+    least = np.array([MAX_FILM_RATIO if joint.film and not joint.dry else 1.0 for joint in source.clearances])
+    return (phi_max > MAX_DRIFT_OVER_SIZE * size) | (e_max > least * c).any(axis=1)
 
 
 def yield_range_notes(
     compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array
 ) -> Iterator[str]:
-    """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws.
+    """Yield notes on a run outside the validity of its model: large constraint violations, or invalid contact laws.
 
     `t0`, `q0`: time (s) and coordinates of the start. `peaks` (n_clearances, 3).
     """
-    if counts.phi_max > APART * compute_mechanism_size(compiled, p):
+    if counts.phi_max > MAX_DRIFT_OVER_SIZE * compute_mechanism_size(compiled, p):
         yield (
-            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
-            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
+            f"constraint equations are violated by up to {counts.phi_max:.3g}: results from then on are not"
+            " meaningful; the cause is a step that is too long, or a drive that pushes the links through a dead centre"
         )
     yield from _yield_law_range_notes(compiled, p, t0, q0, peaks)
 
@@ -207,35 +216,37 @@ def yield_range_notes(
 def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
     """Yield notes for each joint with play whose largest eccentricity left the range of its contact or film law.
 
-    The notes are on squeezed-out films, journals too near the bearing for a film, and penetrations too deep. `t0`,
-    `q0`: the start, which may be too deep already. `peaks` (n_clearances, 3).
+    The notes are on squeezed-out films (e/c above MAX_FILM_RATIO), penetrations of joints with a film only, and
+    penetrations above MAX_DEPTH_OVER_CLEARANCE or MAX_DEPTH_OVER_RADIUS. `t0`, `q0`: the start, which may be too deep
+    already. `peaks` (n_clearances, 3).
     """
     for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         penetration = float(e_max) - compute_max_clearance(compiled.source, p, joint)
         ratio = float(e_max) / float(p[joint.film_clearance])
-        if joint.film and not joint.dry and ratio > THIN:
+        if joint.film and not joint.dry and ratio > MAX_FILM_RATIO:
             yield (
                 f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
-                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+                " capped there: add a dry contact to the joint, or use an oil of higher viscosity"
             )
-        elif joint.film and not joint.dry and penetration > (1.0 - THIN) * c:
+        elif joint.film and not joint.dry and penetration > (1.0 - MAX_FILM_RATIO) * c:
             yield (
-                f"{joint.name}: the journal is up to {1e3 * penetration:.3g} mm within its bearing"
-                f" (c = {1e3 * c:.3g} mm), where a film with extra_clearance still carries it:"
-                " a dry contact takes its force there"
+                f"{joint.name}: the journal penetrates its bearing by up to {1e3 * penetration:.3g} mm"
+                f" (c = {1e3 * c:.3g} mm), where the film still has a force by extra_clearance:"
+                " add a dry contact to the joint"
             )
-        if penetration > (limit := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
+        if penetration > (limit := min(MAX_DEPTH_OVER_CLEARANCE * c, MAX_DEPTH_OVER_RADIUS * radius)):
             begins_deep = _compute_penetration(compiled, p, t0, q0, k, joint) > limit
             location = (
-                "corner goes {} mm into its wall (gap" if joint.is_corner else "journal goes {} mm into its bearing (c"
+                "corner penetrates its wall by {} mm (gap"
+                if joint.is_corner
+                else "journal penetrates its bearing by {} mm (c"
             )
             yield (
                 f"{joint.name}: the {location.format(f'{1e3 * penetration:.3g}')} {1e3 * c:.3g} mm,"
                 f" {'half the width' if joint.is_corner else 'radius'} {1e3 * radius:.3g} mm): outside "
-                "what contact laws"
-                " hold for; "
-                + ("it lies so deep from the start on" if begins_deep else "a step too long does this too")
+                "the validity of contact laws; "
+                + ("the start is that deep" if begins_deep else "a step that is too long has this effect too")
             )
 
 
@@ -266,7 +277,7 @@ def _build_peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak,
 
 
 class _TimeLimitReached(Exception):
-    """Signal that the rest of an interrupted evaluation is left for later."""
+    """Signal that the evaluation of an interrupted run has used its time limit and ends."""
 
 
 def build_result(
@@ -276,8 +287,8 @@ def build_result(
     notes.
 
     The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `is_time_limited`, it
-    is left out after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is not a requested
-    sample is removed from the samples.
+    is left out after MAX_BALANCE_TIME_S seconds. It is stored with the Result of a short run. A start that is not a
+    requested sample is removed from the samples.
     """
     compiled, x, is_unsolvable = problem.compiled, _clear_undefined_works(problem.compiled, trajectory), False
     checked: CheckedSamples | None = None
@@ -289,7 +300,7 @@ def build_result(
         if is_short_run(problem, x):
             short_run = ShortRunSamples(problem, x, times)
             problem.poll_cancellation()
-            passing = short_run if short_run.pass_audit() else None
+            passing = short_run if short_run.passes_audit() else None
             evaluation = None if passing else short_run.build_evaluation()
         if not passing:
             poll = _make_poll_function(problem, x.interrupted, is_time_limited)
@@ -329,7 +340,10 @@ def build_result(
 
 
 class _ResultParts:
-    """Build the fields of a Result that few callers read; what follows from its samples if they pass the audit."""
+    """Build fields of a Result at their first access, for make_with_deferred_fields.
+
+    With `passing` samples, the evaluation and the diagnostics are built at their first access too.
+    """
 
     fields: tuple[str, ...] = ("events", "event_states", "trace", "provenance")
 
@@ -358,7 +372,7 @@ class _ResultParts:
         return collect_provenance(self.problem.compiled, self.date)
 
     def evaluation(self) -> Evaluation:
-        """Return the evaluation of samples that pass the audit, in memory of its own."""
+        """Return the evaluation of samples that pass the audit, as a copy."""
         assert self.passing
         return self.passing.build_evaluation()
 
@@ -392,8 +406,8 @@ def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> T
 def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited: bool) -> Callable[[], None]:
     """Return a function without arguments that polls for Ctrl-C, for the evaluation of samples to call often.
 
-    It also reports progress, and raises _TimeLimitReached AFTER_CTRL_C seconds from now if the run `is_interrupted` and
-    the evaluation `is_time_limited`.
+    It also reports progress, and raises _TimeLimitReached MAX_BALANCE_TIME_S seconds from now if the run
+    `is_interrupted` and the evaluation `is_time_limited`.
     """
     time_at_begin = last_report = monotonic()
 
@@ -405,7 +419,7 @@ def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited:
         if problem.progress and not is_interrupted and now - last_report > POLL_INTERVAL_S:
             last_report = now
             problem.progress(1.0, "balancing energy")
-        if is_interrupted and is_time_limited and now - time_at_begin > AFTER_CTRL_C:
+        if is_interrupted and is_time_limited and now - time_at_begin > MAX_BALANCE_TIME_S:
             raise _TimeLimitReached
 
     return poll

@@ -25,17 +25,14 @@ from gudgeon.results.results import Result
 from gudgeon.results.series import get_catalogue
 
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # fractions of an interval between two states at which powers are evaluated
-INNER_FRACTION = (
-    0.381966  # fraction of an interval: no multiple of it is near the period of a force that a step could hide
-)
+# fraction of an interval: no multiple of it is near the period of a force that a step could hide
+INNER_FRACTION = 0.381966
 MAX_CACHED = 256  # largest number of evaluated places that are cached for the next series
-MAX_SPEED_ERROR = (
-    1e-7  # of the speed: in shorter intervals, differences of positions are too rounded to check the speed
-)
+# of the speed: in shorter intervals, differences of positions are too rounded to check the speed
+MAX_SPEED_ERROR = 1e-7
 MAX_MOTION_AT_REST = 1e-9  # of the positions: a block that moves by less is at rest
-MAX_ACCELERATION_ERROR = (
-    1e-3  # of the largest acceleration: interpolated states whose accelerations err by more are left out
-)
+# of the largest acceleration: interpolated states whose accelerations err by more are left out
+MAX_ACCELERATION_ERROR = 1e-3
 # diagnostics of a block of states, in which nothing is known
 UNKNOWN_DIAGNOSTICS = Diagnostics(
     method="",
@@ -94,7 +91,7 @@ class RunInterpolant:
         """
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].concatenate(steps) if hasattr(self, "steps") else steps
-        self.run, has_accelerations = self._build_result(self.steps)
+        self.run, has_accelerations = self._build_evaluated_result(self.steps)
         self.rates_cache, self.works_cache, self.cached, self.inner_cache = (-1, None), (-1, None), {}, None
         self.n_without_accelerations += int((~has_accelerations[len(has_accelerations) - len(steps) :]).sum())
         self.is_within_step = ~self.steps.is_after_jump[1:] & (
@@ -114,7 +111,7 @@ class RunInterpolant:
         if key not in self.cached:
             if len(self.cached) >= MAX_CACHED:
                 self.cached.clear()
-            result = self._build_result(self._interpolate_states(k, t))[0]
+            result = self._build_evaluated_result(self._interpolate_states(k, t))[0]
             self.cached[key] = (
                 result,
                 self._compute_interpolation_error(k, t, result.a[1:]) if self.has_elastic_contact else np.zeros(len(t)),
@@ -141,7 +138,7 @@ class RunInterpolant:
                 v_inside = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
             q_inside[~self.is_within_step] = v_inside[~self.is_within_step] = np.nan
             t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
-            self.inner_cache = self._build_result(
+            self.inner_cache = self._build_evaluated_result(
                 Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.is_after_jump[:-1])
             )[0]
         return self.inner_cache[name][1:]
@@ -161,7 +158,7 @@ class RunInterpolant:
         ]
         return np.maximum(*errors)
 
-    def _build_result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
+    def _build_evaluated_result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
         """Return a Result of the run's first state and the states `steps`, and a mask of those with accelerations.
 
         The Result has evaluated equations, no impacts and empty diagnostics. Series count energies from the first
@@ -220,9 +217,10 @@ class RunInterpolant:
         return Evaluation(**columns), is_solvable
 
     def _interpolate_states(self, k: int, t: Array) -> Steps:
-        """Interpolate the states at times t (T,) between states k and k + 1, with the contacts of state k.
+        """Return interpolated states at times t (T,) between states k and k + 1, as Steps for evaluation.
 
-        Internal states vary linearly. Works are NaN unless a requested series needs them.
+        Contact codes and modes are those of state k, and internal states vary linearly. Works are NaN unless a
+        requested series needs them. `is_after_jump` is set in the first half of the interval.
         """
         x = self.steps
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
@@ -232,7 +230,7 @@ class RunInterpolant:
         discrete_states[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
         works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)
-        return Steps(t, q, v, works, discrete_states, codes, s[:, 0] < 0.5)  # from where rates come
+        return Steps(t, q, v, works, discrete_states, codes, s[:, 0] < 0.5)
 
     def _interpolate_motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
         """Return q and q̇ (T, n) at times t and fractions s (T, 1) between states k and k + 1.
@@ -246,15 +244,15 @@ class RunInterpolant:
         mid, half, rates, integral = self._interpolate_rates(k)
         places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
         displacement = half * legval(places, integral).T
-        correction = x.q[k + 1] - x.q[k] - (displacement[1] - displacement[0])  # what rates do not know of positions
+        correction = x.q[k + 1] - x.q[k] - (displacement[1] - displacement[0])  # error of the integrated rates
         return x.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(places[2:], rates).T
 
     def _interpolate_rates(self, k: int) -> tuple[float, float, Any, Any]:
-        """Return the polynomial of q̇ between states k and k + 1: middle and half width (s), its and its integral's
-        Legendre coefficients.
+        """Return the polynomial of q̇ between states k and k + 1, in Legendre form.
 
-        The polynomial also passes through neighbouring states where these reduce its estimated error; across a kink of
-        a force they do not. The result of the last k is cached.
+        Return the middle and half width (s) of its interval, its coefficients, and those of its integral. It also
+        passes through neighbouring states where these reduce its estimated error; across a kink of a force they do not.
+        The result of the last k is cached.
         """
         if self.rates_cache[0] != k:
             h, max_count = np.diff(self.steps.t), 2 if self.has_films else 1  # neighbours on each side

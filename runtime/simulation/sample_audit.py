@@ -1,4 +1,4 @@
-"""Audit a few samples of a run in reusable memory by the checks that C makes: power, torques, constraint equations.
+"""Audit a few samples of a run in reusable memory by the checks in C: power, torques, constraint equations.
 
 These are those of `audit._check_random_samples`. The other checks of samples in audit.py need all quantities at all
 samples, which only `simulate` evaluates.
@@ -17,8 +17,8 @@ from gudgeon.simulation.audit import (
     LIMITS,
     MAX_CALLS_OF_SHORT_RUN,
     SAMPLE_POSITIONS,
-    choose_samples,
     list_checks_left_out,
+    select_audit_samples,
 )
 
 Arguments = tuple[Any, ...]
@@ -26,7 +26,7 @@ RIGHT_HAND_SIDES = COUNT_NAMES.index("right_hand_sides")  # column of the counts
 
 
 class ReusableSampleAudit:
-    """Check samples of the runs of a ReusableRun; `is_resumed`: runs begin at a state, which is not checked."""
+    """Audit samples of the runs of a ReusableRun; `is_resumed`: the first sample is the resumed state, not checked."""
 
     def __init__(self, run: ReusableRun, is_resumed: bool) -> None:
         self.run, self.is_resumed = run, is_resumed
@@ -40,25 +40,32 @@ class ReusableSampleAudit:
         # by row, number of samples, and whether the run is short
         self._arguments: dict[tuple[int, int, bool], list[tuple[Arguments, Any]]] = {}
 
-    def has_failed(self, k: int) -> bool:
-        """Return whether a check of the samples of the run in row k exceeds the value at which `simulate` fails."""
+    def audit_samples(self, k: int) -> bool:
+        """Audit samples of the run in row k, and return whether one exceeds the error at which `simulate` fails.
+
+        Return False without an audit. Errors that are not finite do not count: the check "finite" of `simulate`
+        reports them.
+        """
         run, x = self.run, self.run.arrays
         if not run.audit:
             return False
         n_samples, right_hand_sides = x["done"].item(k), x["counts"].item(k, RIGHT_HAND_SIDES)
         key = k, n_samples, run.audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
         if key not in self._arguments:
-            self._arguments[key] = self._list_arguments(k, choose_samples(n_samples, run.audit, right_hand_sides))
+            self._arguments[key] = self._list_arguments(k, select_audit_samples(n_samples, run.audit, right_hand_sides))
         size, arguments = x["size"].item(k), self._arguments[key]
         for pointers, errors_of_sample in arguments:
             run.compiled.lib.gudgeon_audit_samples(1, *pointers, size, errors_of_sample)
         errors = self._errors[: len(arguments)]
         if b"\0" not in (errors <= self._limits).tobytes():  # quicker than all()
             return False
-        return bool(((errors > self._limits) & (errors < np.inf)).any())  # not finite: those of another check
+        return bool(((errors > self._limits) & (errors < np.inf)).any())
 
     def _list_arguments(self, k: int, samples: NDArray[np.intp]) -> list[tuple[Arguments, Any]]:
-        """Return the arguments of C for each of these samples of row k: pointers to the state, and to the errors."""
+        """Return the arguments of C for each of these samples of row k: pointers to the state, and to the errors.
+
+        The first sample of a resumed run is left out.
+        """
         compiled, (y, latched, p) = self.run.compiled, self._rows[k]
         if self.is_resumed and len(samples) > 1:
             samples = samples[samples > 0]

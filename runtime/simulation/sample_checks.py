@@ -1,4 +1,4 @@
-"""Check the samples of a finished run, evaluated block by block: energy balance, audit, notes.
+"""Check the samples of a finished run, which are evaluated block by block: energy balance, audit, notes.
 
 A long run is never evaluated as a whole: the evaluation of a sample takes twice the memory of its state.
 """
@@ -22,16 +22,16 @@ from gudgeon.simulation.audit import SampleAudit
 from gudgeon.simulation.undefined_outputs import UndefinedOutputs
 
 MAX_STORED = 20_000  # samples up to which the evaluation is stored with the Result; longer runs are checked in blocks
-COARSE = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
-BLOCK = 1 << 16  # samples of the energy balance between two polls for cancellation
+MAX_RELATIVE_RESIDUAL = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
+POLLED_SAMPLES = 1 << 16  # samples of the energy balance between two polls for cancellation
 
 
 @dataclass(frozen=True)
 class CheckedSamples:
-    """Hold what the samples of a run show when they are evaluated."""
+    """Hold the evaluation of the samples of a run, and the results of its checks."""
 
     evaluation: Evaluation | None  # of all samples; None: more than MAX_STORED, they are evaluated again on request
-    a: Array | None  # (N, n) q̈; None likewise
+    a: Array | None  # (N, n) q̈; None for more than MAX_STORED samples without stored accelerations
     balance: tuple[float, float]  # largest residual of the energy balance, energy throughput (J)
     findings: tuple[Finding, ...]  # of the audit of the samples
     notes: tuple[str, ...]
@@ -93,7 +93,10 @@ def check_samples(
 def _make_samples(
     problem: Problem, x: Trajectory, rows: slice, a: Array | None, evaluation: Evaluation
 ) -> EvaluatedSamples:
-    """Return some samples of a run as a result without diagnostics, with their evaluation."""
+    """Return the samples `rows` of a run as a result without diagnostics, with their evaluation.
+
+    `a` (N, n): accelerations of all samples of the run; None: those of the evaluation.
+    """
     samples = make_evaluated_samples(
         problem.compiled.source,
         problem.compiled,
@@ -118,14 +121,14 @@ def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object
     An impact at the very start has done its work before the first sample. `poll` polls for cancellation between blocks;
     its exceptions are passed on.
     """
-    if not len(energy):  # not even the start has accelerations
+    if not len(energy):  # the start has no accelerations
         return math.nan, math.nan
     residual_max = throughput = 0.0
     kinetic, potential = energy.T
     by_drives, by_forces, by_clearances = work.T
     with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
-        for first in range(0, len(energy), BLOCK):
-            rows, following = slice(first, first + BLOCK), slice(first + 1, first + BLOCK + 1)
+        for first in range(0, len(energy), POLLED_SAMPLES):
+            rows, following = slice(first, first + POLLED_SAMPLES), slice(first + 1, first + POLLED_SAMPLES + 1)
             change = (kinetic[rows] + potential[rows]) - (kinetic[0] + potential[0])
             total = by_drives[rows] + by_forces[rows] + by_clearances[rows]
             residual = change - (total - (by_drives[0] + by_forces[0] + by_clearances[0]))
@@ -137,15 +140,15 @@ def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object
 
 
 def _build_coarse_step_note(problem: Problem, residual: float, throughput: float) -> tuple[str, ...]:
-    """Return a note if the energy balance of a run with fixed steps is too inaccurate, else ().
+    """Return a note if the energy residual of a run with fixed steps exceeds MAX_RELATIVE_RESIDUAL, else ().
 
-    `residual`, `throughput`: those of the energy balance (J). Methods with error control get no note.
+    `residual`, `throughput`: of the energy balance (J). Methods with error control get no note.
     """
-    if math.isinf(problem.step) or not residual > COARSE * throughput:
+    if math.isinf(problem.step) or not residual > MAX_RELATIVE_RESIDUAL * throughput:
         return ()
     return (
-        f"energy balances to {residual:.3g} J of {throughput:.3g} J turned over: a step of {problem.step:.3g} s is too"
-        " long for these forces; compare with a shorter one or with method auto",
+        f"the energy residual is {residual:.3g} J at an energy throughput of {throughput:.3g} J: a step of"
+        f" {problem.step:.3g} s is too long for these forces; compare with a shorter step or with method auto",
     )
 
 
@@ -159,7 +162,7 @@ def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float
         is_finite = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
     k = int(is_finite.argmin()) if not is_finite.all() else 0
     what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
-    return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
+    return (f"the energy residual is not known: {what} is not finite at t = {t[k]:.9g} s",)
 
 
 def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array, slips: Array) -> tuple[str, ...]:
@@ -176,8 +179,8 @@ def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array
         if rests_successively.any() and static is not None and problem.p[static] > 0.0:
             t_rest, count = float(t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
             notes.append(
-                f"friction {name} is at rest by drives or by other friction from t = {t_rest:.9g} s on, in {count}: any"
-                " force within its static limit fits there, so its force, what drives give and reactions are not"
-                " determined; the run has the last force of sliding, or 0"
+                f"drives or other friction hold friction {name} at rest from t = {t_rest:.9g} s on, in {count}: its"
+                " force within the static limit, drive torques and reactions are not determined there; the run has the"
+                " last sliding force, or 0"
             )
     return tuple(notes)

@@ -1,4 +1,4 @@
-"""Compute requested series at the samples of a run that was integrated in reusable memory (reusable_run.py).
+"""Compute requested series at the samples of a run that was integrated in preallocated arrays (reusable_run.py).
 
 Series are computed by the functions of the catalogue (results/series.py) from the arrays of the run, which stay where
 they are from run to run. Quantities that must be evaluated are written by C into arrays that are allocated once.
@@ -46,7 +46,7 @@ class SampleReader:
         self._columns = [[self._find_column(samples, name) for name in names] for samples in self._samples]
 
     def _find_column(self, samples: _ReusableSamples, name: str) -> Array | Callable[[Result], Array]:
-        """Return the array (N,) in which a series is for all runs of a row, or the function that computes it."""
+        """Return the view (N,) of a series in the reused arrays of a row, or the function that computes the series."""
         if name == "t":
             return samples.result.t
         series = get_catalogue(self.run.compiled.source)[name]
@@ -65,7 +65,7 @@ class SampleReader:
         """
         x, n_skipped = self.run.arrays, self.n_skipped
         is_complete = x["done"].item(k) == self.n_samples and not x["status"].item(k)
-        if self._is_reusable and is_complete and self._samples[k].update():
+        if self._is_reusable and is_complete and self._samples[k].evaluate():
             samples = self._samples[k]
             values = np.empty((len(self.names), self.n_samples - n_skipped))
             for i, column in enumerate(self._columns[k]):
@@ -74,7 +74,7 @@ class SampleReader:
         values = np.full((len(self.names), self.n_samples - n_skipped), np.nan)
         result = build_samples(self.run, k, self.parts)
         assert result is not None
-        first = n_skipped if len(result.t) > 1 else 0  # the start may be all that there is
+        first = n_skipped if len(result.t) > 1 else 0  # a run that ends at its start has no other sample
         for row, name in zip(values, self.names, strict=True):
             row[: len(result.t) - first] = result[name][first:]
         return values
@@ -112,8 +112,11 @@ class _ReusableSamples:
         inputs = [pointer(array) for array in (run.times.t, *self._copies, x["latched"][k])]
         self._arguments = (len(y), *inputs, pointer(x["p"][k]), *results, compiled.ffi.new("long *"))
 
-    def update(self) -> bool:
-        """Evaluate the samples of the run that has ended in this row; return whether all could be evaluated."""
+    def evaluate(self) -> bool:
+        """Evaluate the samples of the run that has ended in this row in C; return whether all could be evaluated.
+
+        Cached values of the previous run are dropped. Without quantities to evaluate, return True.
+        """
         cached: dict[str, Any] = vars(self.result)
         self.result.stored.clear()
         for name in _OF_PARAMETERS:

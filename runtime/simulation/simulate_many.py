@@ -112,7 +112,7 @@ def simulate_many(
     workers = count_available_threads() if threads is None else threads
     if not is_integer(workers) or workers < 1:
         raise BadValueError(f"threads is {shorten_value(threads)}: expected a number of threads, 1 or more")
-    workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
+    workers = int(min(workers, max(len(starts.given), 1)))  # at most one thread per run
     series = select_stored_series(source, keep)
     selected = select_method(source, method, step is not None)
     tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
@@ -192,9 +192,9 @@ class _BatchOptions:
 
 
 class _Starts:
-    """Hold the parameter values (n_runs, n_slots) and start states of all runs, and which of them cannot begin.
+    """Hold the parameter values (n_runs, n_slots), start states and notes of all runs.
 
-    Without states, runs begin at t = 0.
+    `failures`: errors of runs with invalid parameters, by index. Without states, runs begin at t = 0.
     """
 
     def __init__(
@@ -223,7 +223,7 @@ class _Starts:
         self.t = self.states[0].t if self.states else 0.0
         uniform_values = (
             None if self.states or contours else read_uniform_rows(simulation.source, rows)
-        )  # then none chooses anything
+        )  # not None: no run has notes on choices
         self.remarks: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
         self._merged_inputs: tuple[object, ...] = (self, self)  # of the last run: its parameters, those of its state
         self.given: Array
@@ -283,7 +283,7 @@ class _Starts:
 
 @dataclass
 class _Results:
-    """Build the Result of run i from the stored arrays of the batch."""
+    """Integrate the runs of a batch, and build the Result of run i from the stored arrays when it is requested."""
 
     simulation: Simulation
     runs: Runs
@@ -298,12 +298,13 @@ class _Results:
         self._suspects = SuspectRuns(self.runs, bool(self.starts.states))
 
     def integrate_runs(self, progress: Progress | None) -> None:
-        """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them.
+        """Integrate all runs; process them as they finish where series are stored or Python must check them.
 
-        C stores series of the motion of kinematic runs. `progress` None: nothing is reported.
+        In kinematic ensembles without observers, C stores the series of the motion. `progress` None: no progress is
+        reported.
         """
         if self.stored_series and self.runs.kinematic and not (self.runs.observers or self._suspects.checks_all):
-            self.stored_series.compute_in_c(self.runs.kinematic)
+            self.stored_series.pass_arrays_to_c(self.runs.kinematic)
         self.runs.store_results = (
             self._process_finished_runs
             if self.stored_series or self.runs.python_loop or list_redundant_equations(self.runs.compiled)
@@ -314,13 +315,13 @@ class _Results:
     def _process_finished_runs(self, finished_runs: Sequence[int]) -> None:
         """Store the requested series of finished runs, given by index, and record errors that C does not find.
 
-        Results of Python time loops are checked in full, kinematic runs that C has audited only if it found
-        something. Other runs are checked for contradictory constraints where the scene may have them.
+        With a Python time loop, the runs that SuspectRuns selects are checked in full. Otherwise runs are checked for
+        violated redundant constraints if the scene has them.
         """
         runs = self.runs
         if runs.python_loop:
-            suspects = self._suspects.select_runs(finished_runs)
-            for i in runs.complete_runs(suspects):
+            suspects = self._suspects.select_runs_to_check(finished_runs)
+            for i in runs.recompute_runs_in_full(suspects):
                 result = self._build_checked_result(i)
                 if self.stored_series:
                     self.stored_series.store_run(runs, i, result)
@@ -331,7 +332,7 @@ class _Results:
             self.stored_series.store_finished_runs(runs, finished_runs)
 
     def _check_redundant_constraints(self, finished_runs: Sequence[int]) -> None:
-        """Record an error for each finished run that violates a redundant constraint equation of the scene, if any."""
+        """Record an error for each finished run with samples that violates a redundant constraint equation, if any."""
         runs = self.runs
         for i in finished_runs if list_redundant_equations(runs.compiled) else ():
             if runs.arrays["done"][i] and (
@@ -422,8 +423,8 @@ def _build_batch(results: _Results, times: Times) -> Batch:
     runs, source, stored_series = results.runs, results.simulation.source, results.stored_series
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
     if stored_series:
-        stored_series.complete(runs)
-    without_samples = np.flatnonzero((x["done"] == 1) & (times.n_skipped == 1))  # the start is all that they have
+        stored_series.fill_times_and_gaps(runs)
+    without_samples = np.flatnonzero((x["done"] == 1) & (times.n_skipped == 1))  # runs that have only their start
     for rows in (
         (stored_series.arrays.values() if stored_series else (x["y"], x["state"])) if len(without_samples) else ()
     ):

@@ -151,31 +151,31 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         Raises InputError if the file or one of its tables was edited after loading. The error is also raised if a
         registered law was replaced or is not registered in this process.
         """
-        from gudgeon.loading.kernel_sources import find_present_law_keys, hash_present_tables, read_bytes
+        from gudgeon.loading.kernel_sources import hash_current_tables, list_current_law_keys, read_bytes
 
         data = read_bytes(self.file)
         is_same_file = sha256(data).hexdigest() == self.source.sha256
-        if not is_same_file or hash_present_tables(self.source, self.file) != self.source.tables:
+        if not is_same_file or hash_current_tables(self.source, self.file) != self.source.tables:
             raise InputError(
                 f"{'a table of ' * is_same_file}{self.file} was edited after it was loaded:"
                 " equations derived from it now would not be those of this simulation",
-                hint="load it again with gudgeon.load(…), or put the file back as it was",
+                hint="load it again with gudgeon.load(…), or restore the file",
             )
-        for (name, loaded_key), (_, present_key) in zip(
-            self.source.laws, find_present_law_keys(self.source), strict=True
+        for (name, loaded_key), (_, current_key) in zip(
+            self.source.laws, list_current_law_keys(self.source), strict=True
         ):
-            if present_key != loaded_key:
-                difference = "is another one now" if present_key else "is not registered in this process"
+            if current_key != loaded_key:
+                difference = "has changed" if current_key else "is not registered in this process"
                 hint = (
-                    "gudgeon.register it as it was"
-                    if not present_key
+                    "register the same law with gudgeon.register"
+                    if not current_key
                     else "load the mechanism again with gudgeon.load(…)"
                 )
-                raise InputError(f"the law {name}, with which this simulation was made, {difference}", hint=hint)
+                raise InputError(f"the law {name} of this simulation {difference}", hint=hint)
         return data
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the state for pickling, without derived models and variants."""
+        """Return the attributes for pickling, without the derived model and the variants."""
         return self.__dict__ | {"_model": None, "_variants": {}}
 
     @property
@@ -198,8 +198,9 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         """Return the exact Jacobian ∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; SI.
 
         Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, branches of min, max, abs and
-        sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs. Raises SingularError where
-        constraint rows depend on each other, ValueError where nothing is integrated. None: all contacts are open.
+        sign, and modes of friction are those at y. `memory`: discrete states as in CompiledModel.rhs; None: all
+        contacts are open. Raises SingularError where constraint equations depend on each other, ValueError for
+        kinematic scenes. In the reduced formulation, the full one is loaded at the first call.
         """
         full = self.full
         return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
@@ -307,7 +308,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
         check_sample_memory(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
-            assemble_start(self.compiled, p)  # names the joints that contradict each other
+            assemble_start(self.compiled, p)  # its error names the joints that contradict each other
             select_method(self.source, method, step is not None)  # raises an error
         h = evaluate_step(self.compiled, step, settings.method, p, float(times[-1] - t0))
         if h < math.inf and (times[-1] - t0) / h > MAX_STEPS:
@@ -461,9 +462,9 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         """Integrate a prepared run, build and check its Result, and return it.
 
         `given`, `is_given`: values and mask of the run-time parameters. `observer`: step observer whose findings are
-        stored in the diagnostics, or None. `ctrl_c`: what the problem polls. A drive that jumps ends the run before the
-        jump. Ctrl-C ends the run, which is marked as interrupted. Raises SolverError with the Result up to there as
-        `partial`.
+        stored in the diagnostics, or None. `ctrl_c`: the delayed Ctrl-C that the problem polls. A drive that jumps ends
+        the run before the jump, with an error. Ctrl-C ends the run, which is marked as interrupted. Raises SolverError
+        with the Result up to there as `partial`.
         """
         t0 = float(problem.t[0])
         jump = find_first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
@@ -475,7 +476,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             if observer:
                 observer.build_observation().store_in(result)
             result, stopped = check_result(problem, trajectory, result)
-            if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it came to the jump
+            if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it reached the jump
                 stopped = stopped or build_jump_error(self.source, jump)
         result = mark_result_if_interrupted(ctrl_c, result)
         if stopped is not None:

@@ -88,8 +88,9 @@ def make_observer(
 ) -> StepObserver | None:
     """Return the step observer of a run; None if nothing is requested.
 
-    `parameter_arrays`: parameter values, given values and their mask. `requests`: series and requests for wear.
-    `compared_simulation`: scene for errors of the series, or None.
+    It is a PeakSearch for series, a WearObserver for a request for wear, or a CombinedObserver of several.
+    `parameter_arrays`: parameter values, given values and their mask. `compared_simulation`: scene for errors of the
+    series, or None; it is integrated with `rtol`, the default tolerance if that is 0.
     """
     if not requests:
         return None
@@ -148,15 +149,15 @@ class ComparedScene:
             if slot.address in addresses
         }
         self.parameter_arrays = prepare_values(self.compiled, values)
-        self.failure_reason = ""  # reason why it cannot be followed further; "" if it can
-        self.problem: Problem | None = None  # from where it resumes
-        self.last_state: Steps | None = None  # the state there
+        self.failure_reason = ""  # message of the error that ended its integration; "" without one
+        self.problem: Problem | None = None  # the problem from the last state on
+        self.last_state: Steps | None = None  # last state of the integration
         self.rtol = rtol
 
     def integrate_to(self, t: Array) -> Steps | None:
-        """Return the scene's states at times t (k,), which do not decrease from call to call; None after a failure.
+        """Integrate to times t (k,) in s, which do not decrease from call to call, and return the states there.
 
-        The first failure is stored as a text in `failure_reason`.
+        Return None after a failure. The first failure is stored as a text in `failure_reason`.
         """
         if self.failure_reason:
             return None
@@ -167,10 +168,9 @@ class ComparedScene:
             return None
 
     def _integrate_from_last_state(self, t: Array) -> Steps:
-        """Integrate the scene from its last state to the times t (k,) in s; return its states there and store the last
-        one.
+        """Integrate the scene from its last state, or its start, to the times t (k,) in s; return the states there.
 
-        Raises the error that ends the integration.
+        The last one is stored for the next call. Raises the error that ends the integration.
         """
         problem = self.problem or self._build_start_problem()
         times = np.union1d(problem.t[:1], t)
@@ -179,7 +179,7 @@ class ComparedScene:
         x = integrate_run(replace(problem, t=times))
         if x.stopped is not None:
             raise x.stopped
-        work = x.work if self.last_state is None else x.work + self.last_state.work  # each part begins with none
+        work = x.work if self.last_state is None else x.work + self.last_state.work  # works of a part begin at 0
         steps = Steps(x.t, x.q, x.v, work, x.memory, x.state, np.zeros(len(x.t), dtype=bool))
         self.last_state = steps[-1:]
         state = x.state[-1] if x.state.shape[1] else None
@@ -217,5 +217,5 @@ def check_compared_scene(source: KernelSource, against: Simulation | None) -> Si
         raise_bad_value("against", against, "a loaded scene, gudgeon.load(file)")
     if against.source.mechanism != source.mechanism:
         message = f"against is a scene of {against.source.mechanism}: this is a scene of {source.mechanism}"
-        raise BadValueError(message, hint="errors are taken against another scene of the same mechanism")
+        raise BadValueError(message, hint="expected another scene of the same mechanism")
     return against

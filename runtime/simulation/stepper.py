@@ -62,7 +62,7 @@ class Stepper:
         checked = {"inputs": setup.names, "series": setup.series, "fixed": setup.fixed}
         self._compiled, self._arguments = setup.scene.compiled, arguments | checked
         self._step_varies = setup.method == "rk4" and setup.step is None
-        # of a scene that `simulate` runs: the state reached, and the state from which the next run begins
+        # for scenes that `simulate` runs: the current state, and the state from which the next run begins
         self._state: State | None = None
         self._start: State | None = None
         self._x, self._x_key, self._t, self.ended, self._is_reset = np.zeros(len(setup.names)), b"", 0.0, False, False
@@ -70,7 +70,7 @@ class Stepper:
         if setup.needs_simulate:
             return
         self._run = setup.make_run(np.array([0.0, 1.0]), np.full(N_ROWS, setup.evaluate_step(0, 1.0)))
-        self._run.arrays["started"][0] = 1  # C takes each start from the array
+        self._run.arrays["started"][0] = 1  # C reads each start from the array
         self._reader = SampleReader(self._run, setup.series, 1)
         self._sample_audit = ReusableSampleAudit(self._run, is_resumed=True)
         self._arrays = {
@@ -155,7 +155,7 @@ class Stepper:
         with self._lock:
             self._check_reset()
             x, t = self._x if inputs is None else self._check_inputs(inputs), self._t + dt
-            if not max(MIN_ROUNDINGS * math.ulp(t), MIN_DURATION_S) < dt < math.inf:  # raises what is wrong with it
+            if not max(MIN_ROUNDINGS * math.ulp(t), MIN_DURATION_S) < dt < math.inf:  # the next call raises the error
                 compute_output_times(self._setup.scene.source, self._setup.columns.p[0], self._t, t, 1)
             if self._run is None:
                 return self._step_by_simulate(t, x)
@@ -179,7 +179,7 @@ class Stepper:
         return {"simulation": self._simulation, "arguments": self._arguments} | reached
 
     def __setstate__(self, pickled: dict[str, Any]) -> None:
-        """Make the stepper again, in the state that was reached."""
+        """Restore the stepper after unpickling: check its arguments again, and set the state that was reached."""
         self.__init__(pickled["simulation"], pickled["arguments"])  # type: ignore[misc]
         state = pickled["state"]
         if state is None:
@@ -191,26 +191,26 @@ class Stepper:
         self._state, self._start, self.ended, self._is_reset = state, pickled["start"], pickled["ended"], True
 
     def _check_inputs(self, inputs: ArrayLike | None) -> Array:
-        """Return the inputs as an array (n_inputs,); None is no inputs. Raises ArrayError."""
+        """Return the inputs as an array (n_inputs,); for None, an empty array. Raises ArrayError."""
         return as_c_array(() if inputs is None else inputs, "inputs", (len(self._setup.names),))
 
     def _check_reset(self) -> None:
-        """Raise BadValueError if there is no state yet."""
+        """Raise BadValueError if the stepper has not been reset, or its last reset failed."""
         if not self._is_reset:
             raise BadValueError("the stepper has no state yet", hint="call reset(inputs) first")
 
     def _set_inputs(self, x: Array) -> None:
-        """Compute the parameter values of inputs x (n_inputs,), and what follows from them. Raises InputError."""
+        """Compute parameter values and error tolerances for inputs x (n_inputs,) in row 0. Raises InputError."""
         assert self._run
         self._x_key = b""
         if not (self._setup.columns.compute_row(x, 0) and self._run.update_tolerances(0)):
-            prepare_values(self._compiled, self._setup.get_parameters(x))  # raises what is wrong
+            prepare_values(self._compiled, self._setup.get_parameters(x))  # raises the error
         self._x_key = x.tobytes()
 
     def _set_state(self, start: State, x: Array) -> None:
         """Copy a state into the arrays of the run, as the start of the next step, with inputs x (n_inputs,).
 
-        Raises InputError, and AssemblyError if they do not fit together.
+        Raises InputError for an invalid state or other parameter values, AssemblyError if it violates the constraints.
         """
         state, arrays, n = copy_checked_state(self._setup.scene.source, start), self._arrays, self._compiled.n
         p = self._setup.columns.p[0]
@@ -219,16 +219,17 @@ class Stepper:
             others = ", ".join(state.parameters)
             raise BadValueError(
                 f"start: its run had other parameter values than this stepper: {others}",
-                hint="give them in fixed when the stepper is made, or among its inputs",
+                hint="pass them in fixed or as inputs when the stepper is created",
             )
         check_resumed_state(self._compiled, state, p)
         self._q[:], arrays["start"][n:], self._t = state.q, state.v, state.t
         arrays["remembered"][: len(state.memory)], arrays["codes"][: len(state.state)] = state.memory, state.state
 
     def _integrate(self, t: float, n_samples: int, x: Array) -> Array:
-        """Integrate to t (s) with inputs x, and return the series there; of the start alone if `n_samples` is 1.
+        """Integrate to t (s) with inputs x, make the end the new state, and return the series there.
 
-        Raises the error of the run; the state is then unchanged.
+        An event that ends the run sets `ended`. If `n_samples` is 1, only the series of the start are returned. Raises
+        the error of the run; the state is then unchanged.
         """
         run, arrays = self._run, self._arrays
         assert run
@@ -238,10 +239,10 @@ class Stepper:
             raise run.build_error(0)
         if n_samples == 1:
             return self._reader.read_row(0)[:, 0]
-        if self._sample_audit.has_failed(0):
+        if self._sample_audit.audit_samples(0):
             self._simulate(t, x, self.final)  # raises the error
         values, last = self._reader.read_row(0)[:, 0], run.arrays["done"].item(0) - 1
-        self._is_reset = False  # an interrupt within the next lines leaves no state
+        self._is_reset = False  # an interrupt in the next lines would leave an inconsistent state
         arrays["start"][:] = arrays["y"][last, : 2 * self._compiled.n]
         arrays["remembered"][:], arrays["codes"][:] = arrays["latched"][last], arrays["state"][last]
         self.ended = status == ENDED
@@ -263,7 +264,7 @@ class Stepper:
         return result
 
     def _reset_by_simulate(self, x: Array, start: State | None) -> Array:
-        """Return what `reset` returns, from the first sample of a short run of `simulate`.
+        """Reset the stepper by a short run of `simulate`; return the series (n_series,) of its first sample.
 
         `start` None: the scene's start.
         """
@@ -277,9 +278,9 @@ class Stepper:
         return np.array([result[name][0] for name in self.series])
 
     def _step_by_simulate(self, t: float, x: Array) -> Array:
-        """Return what `step` returns, from the last sample of the run of `simulate` to t (s).
+        """Make a step to t (s) by `simulate`; return the series (n_series,) of its last sample.
 
-        The end of that run becomes the new state; `ended` tells whether an event ended it.
+        The end of that run becomes the new state; `ended` is set if an event ended it.
         """
         result = self._simulate(t, x, self._start)
         self._start = self._state = result.final
@@ -289,7 +290,7 @@ class Stepper:
 
 
 def _ends_at_event(result: Result) -> bool:
-    """Return whether an event of the file that stops runs lies at the end of the run."""
+    """Return whether the last event of the run is at its end and has the action "stop"."""
     if not len(result.events):
         return False
     last = result.events[-1]

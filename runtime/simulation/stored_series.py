@@ -11,8 +11,8 @@ from gudgeon.contract.boundary import MAX_MOTION_SERIES
 from gudgeon.errors import SolverError
 from gudgeon.integrators.times import Times
 from gudgeon.model.evaluation import evaluate_runs
+from gudgeon.model.file_expressions import may_powers_be_undefined
 from gudgeon.model.left_limit import find_evaluation_times
-from gudgeon.model.written import may_powers_be_undefined
 from gudgeon.results.batch import STATES, check_series_names, depends_on_works, find_evaluation_parts
 from gudgeon.results.results import EvaluatedSamples, Result, make_evaluated_samples
 from gudgeon.results.series import get_catalogue
@@ -38,7 +38,7 @@ def select_stored_series(source: KernelSource, keep: str | Iterable[str]) -> tup
 class StoredSeries:
     """Store requested series as arrays (n, N) by name, and "t" when all runs are over.
 
-    Some are stored from the samples of finished runs. C stores the others during the runs (`compute_in_c`).
+    Some are stored from the samples of finished runs. C stores the others during the runs (`pass_arrays_to_c`).
     """
 
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
@@ -49,8 +49,12 @@ class StoredSeries:
         series = [get_catalogue(source)[name] for name in names]
         self.may_join_runs = all(one.stored or one.evaluated or one.is_by_sample for one in series)
 
-    def compute_in_c(self, kinematic: KinematicEnsemble) -> None:
-        """Let C store series of the motion during the runs, without what no series needs: states, works."""
+    def pass_arrays_to_c(self, kinematic: KinematicEnsemble) -> None:
+        """Pass the arrays of series of the motion to the kinematic ensemble, so that C fills them during the runs.
+
+        At most MAX_MOTION_SERIES are passed; Python computes the others. States are stored only if Python needs them,
+        works only if a series depends on them or powers may be undefined.
+        """
         motions = {name: get_catalogue(self._source)[name].motion for name in self._names_in_python}
         in_c = dict([(name, motion) for name, motion in motions.items() if motion][:MAX_MOTION_SERIES])
         self._names_in_python = tuple(name for name in self._names_in_python if name not in in_c)
@@ -63,7 +67,7 @@ class StoredSeries:
             has_works=needs_works or may_powers_be_undefined(self._source),
         )
 
-    def complete(self, runs: Runs) -> None:
+    def fill_times_and_gaps(self, runs: Runs) -> None:
         """Store "t", the times of all samples, and set all series to NaN where a run has no sample.
 
         Called once, when all runs are over. "t" is read-only if all runs have the same times.
@@ -91,13 +95,16 @@ class StoredSeries:
             self._store_joined_runs(runs, with_samples[k : k + n_joined])
 
     def _store_joined_runs(self, runs: Runs, indices: Sequence[int]) -> None:
-        """Store the series of runs with samples, at once if there are several and none of them fails."""
+        """Store the series of the runs `indices`, which have samples, from one joint evaluation.
+
+        If the evaluation fails, the runs are evaluated one by one, so that only those with an error fail.
+        """
         if len(indices) > 1:
             try:
                 joined = _concatenate_samples(runs, indices, self.parts)
                 self._copy_samples(self._names_in_python, indices, joined.sample_counts, joined)
                 return
-            except SolverError:  # of one of them: alone it says which
+            except SolverError:  # evaluating run by run shows which one has the error
                 pass
         for i in indices:
             if run := build_samples(runs, i, self.parts):
@@ -125,8 +132,8 @@ class StoredSeries:
         """
         columns, first = [(self.arrays[name], result[name]) for name in names], 0
         for i, count in zip(indices, counts, strict=True):
-            for kept, column in columns:
-                kept[i, first_column : first_column + count] = column[first : first + count]
+            for stored, column in columns:
+                stored[i, first_column : first_column + count] = column[first : first + count]
             first += count
 
 

@@ -1,4 +1,4 @@
-"""Select the runs of a batch without degrees of freedom that Python must check, because C found something or cannot.
+"""Select the kinematic runs of a batch that Python must check: those that the audit in C reports, or all.
 
 C audits the samples of kinematic runs as `audit.SampleAudit` does (engine/kinematic/ensemble.c), and finds samples that
 are not finite, at change points, or with steep accelerations. Only those runs are evaluated in full.
@@ -27,7 +27,8 @@ from gudgeon.simulation.audit import (
 class SuspectRuns:
     """Select the runs to be checked in Python; without a kinematic ensemble these are all runs.
 
-    `is_resumed`: the runs begin at given states, whose violations Python notes. `checks_all`: all runs are selected.
+    `is_resumed`: the runs begin at the states of earlier runs, whose violations Python reports. `checks_all`: all runs
+    are selected.
     """
 
     def __init__(self, runs: Runs, is_resumed: bool) -> None:
@@ -44,8 +45,12 @@ class SuspectRuns:
             limits = [np.inf if check in left_out else limit for check, limit in LIMITS.items()]
             runs.kinematic.set_sample_audit(SHORT_RUN_POSITIONS, np.array(limits))
 
-    def select_runs(self, finished_runs: Sequence[int]) -> list[int]:
-        """Return the indices of those of the finished runs that Python must check."""
+    def select_runs_to_check(self, finished_runs: Sequence[int]) -> list[int]:
+        """Return the indices of those of the finished runs that Python must check.
+
+        They are runs that the audit in C reports, starts that differ from `start.set`, and accelerations that jump at
+        the last sample. With `checks_all` they are all runs.
+        """
         if self.checks_all:
             return list(finished_runs)
         x, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
@@ -59,7 +64,7 @@ class SuspectRuns:
         return [int(i) for i in indices[is_suspect]]
 
     def _ends_at_jump(self, i: int) -> bool:
-        """Return whether an acceleration jumps at the last sample of run i, whose limit from the left Python stores."""
+        """Return whether an acceleration jumps at the last sample of run i; Python must then store its left limit."""
         n, compiled = self._runs.compiled.n, self._runs.compiled
         t, y, *_ = self._runs.get_samples(i)
         times = find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], self._runs.arrays["p"][i])

@@ -1,7 +1,7 @@
-"""Integrate the variational equation along a run, through its contacts: the growth of small perturbations.
+"""Integrate the variational equation along a run, through its contacts: state-transition and saltation matrices.
 
 δẏ = J δy is solved with the exact Jacobian by Gauss collocation of order 6 on panels, which end at contacts. They are
-halved until the propagator P converges and carries the motion's own direction: f(b) = P f(a).
+halved until the propagator (state-transition matrix) P converges and maps the rates of the motion: f(b) = P f(a).
 
 At a contact, the right-hand side changes from f⁻ to f⁺ on a surface g(y) = 0; g is the penetration. Differences are
 multiplied by the saltation matrix S = I + (f⁺ − f⁻) ∇gᵀ/(∇gᵀ f⁻) (M. di Bernardo, C. Budd, A. Champneys, P. Kowalczyk,
@@ -46,13 +46,12 @@ BUTCHER = np.array(
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
 N_PANELS, MAX_DEPTH = 2, 16  # initial panels between two contacts, and largest number of halvings
 PROPAGATOR_TOL = 1e-8  # largest change of a panel's propagator by halving it
-MAX_TRANSPORT_ERROR = 1e-4  # of the rates ẏ: allowed error of those that P maps from the begin to the end of a panel
+MAX_RATE_ERROR = 1e-4  # of the rates ẏ: allowed difference of P ẏ(begin of the panel) from ẏ(its end)
 INSIDE = 1e-6  # of the time between two contacts: distance from its ends at which rates are evaluated
 CLEARANCE_OFFSET = 1e-9  # of the clearance: distance from the surface at which f⁻ and f⁺ are evaluated
 DIFFERENCE_STEP = 1e-4  # of the clearance: difference for derivatives of gaps
-MAX_LOG_GROWTH = (
-    30.0  # ln of the growth over one interval: if it is larger, the interval is repeated with half its length
-)
+# ln of the growth over one interval: if it is larger, the interval is repeated with half its length
+MAX_LOG_GROWTH = 30.0
 
 
 class Flow:
@@ -86,7 +85,7 @@ class Flow:
         of_node = np.zeros(2 * m + N_WORK + self.n_dep), self._state[2]
         self._J, self._f_t = np.empty((2 * m + N_WORK,) * 2), np.empty(2 * m + N_WORK)
         self._jacobian = [*self.make_pointers(*of_node), *p, *self.make_pointers(self._J, self._f_t, is_written=True)]
-        self._node, self._others = of_node[0], others  # C's views alone would not keep them
+        self._node, self._others = of_node[0], others  # referenced here, since pointers do not keep arrays alive
 
     def reduce_state(self, t: float, qv: Array) -> tuple[Array, Array]:
         """Convert (q, q̇) of all bodies, (2n,), to the integrated state y (2m,) and the dependent coordinates.
@@ -97,8 +96,8 @@ class Flow:
         if not self.is_reduced:
             return qv.copy(), np.zeros((2, 0))
         n, m, size = self.compiled.n, self.m, self.m + self.n_dep
-        (own_q, own_v), (q, v) = self._full, self._reduced
-        own_q[:], own_v[:], q[:], v[:] = qv[:n], qv[n:], 0.0, 0.0
+        (full_q, full_v), (q, v) = self._full, self._reduced
+        full_q[:], full_v[:], q[:], v[:] = qv[:n], qv[n:], 0.0, 0.0
         self.compiled.lib.gudgeon_reduce(t, *self._reduce)
         return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
 
@@ -207,7 +206,7 @@ class Panel:
     width: float
     depth: int = 0
     P: Array | None = None
-    transport_error: float = 0.0  # relative error of the rates ẏ that P maps from the begin to the end
+    rate_error: float = 0.0  # relative error of the rates ẏ that P maps from the begin to the end
     halving_change: float = 0.0  # of the propagator by the last halving
     halves: tuple[Panel, ...] = ()
 
@@ -245,7 +244,7 @@ class Panel:
 
 @dataclass(eq=False)
 class Tangent:
-    """Follow a tangent vector z of the integrated state, of δ̇⁻ and of t (0), (2m + n_clearances + 1,), along a run."""
+    """Integrate a tangent vector z along a run: differences of y, of the approach speeds δ̇⁻ and of t (always 0)."""
 
     simulation: Simulation
     measure: DifferenceNorm
@@ -255,7 +254,7 @@ class Tangent:
     flow: Flow
     n_merged: int = 0  # always 0: tangent vectors do not vanish
     growth_error: float = 0.0  # sum of the errors of ln of the growth
-    z: Array = field(init=False)
+    z: Array = field(init=False)  # (2m + n_clearances + 1,)
 
     def __post_init__(self) -> None:
         """Set the first tangent vector `z` from a randomly drawn neighbour of the start, and its norm `distance`."""
@@ -291,9 +290,9 @@ class Tangent:
         return run, grown
 
     def _simulate_to_times(self, times: list[float] | Array) -> Result:
-        """Return the run from the present state with samples at these times (s).
+        """Return the run from the current state with samples at these times (s).
 
-        Raise KeyboardInterrupt after Ctrl-C.
+        Raises KeyboardInterrupt after Ctrl-C.
         """
         run = self.simulation.simulate(output=times, start=self.state, stop=False, peaks=(), **self.settings)
         if run.diagnostics.interrupted:
@@ -301,7 +300,7 @@ class Tangent:
         return run
 
     def _list_contact_changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
-        """Return the onsets and ends of contacts after the present state and before the end of the run, by time.
+        """Return the onsets and ends of contacts after the current state and before the end of the run, by time.
 
         Items are (time in s, index of the joint, whether it is an onset, approach speed δ̇⁻ in m/s).
         """
@@ -327,38 +326,37 @@ class Tangent:
     def _compute_panels(self, times: list[float]) -> list[Panel]:
         """Return N_PANELS panels between each two successive times, with propagators that have converged.
 
-        A panel is halved until halving changes its propagator little and both halves map q̇ at one end to q̇ at the
-        other, or until MAX_DEPTH. The halves are nested in `panel.halves`; the list holds the first panels only.
+        A panel is halved until this changes its propagator by at most PROPAGATOR_TOL and both halves map ẏ within
+        MAX_RATE_ERROR, or until MAX_DEPTH. The halves are nested in `panel.halves`; the list holds the first
+        panels only.
         """
         panels = [
             Panel(a, b, k / N_PANELS, 1.0 / N_PANELS)
             for a, b in zip(times, times[1:], strict=False)
             for k in range(N_PANELS)
         ]
-        self._compute_propagators(panels)
+        self._set_propagators(panels)
         unconverged = panels
         while unconverged:
             for panel in unconverged:
                 panel.halves = panel.split()
             halves = [half for panel in unconverged for half in panel.halves]
-            self._compute_propagators(halves)
+            self._set_propagators(halves)
             further: list[Panel] = []
             for panel in unconverged:
                 first, second = panel.halves
                 assert first.P is not None and second.P is not None and panel.P is not None
                 change = self._compare_propagators(second.P @ first.P, panel.P)
-                transport_error = max(first.transport_error, second.transport_error)
-                if (change > PROPAGATOR_TOL or transport_error > MAX_TRANSPORT_ERROR) and first.depth < MAX_DEPTH:
+                rate_error = max(first.rate_error, second.rate_error)
+                if (change > PROPAGATOR_TOL or rate_error > MAX_RATE_ERROR) and first.depth < MAX_DEPTH:
                     further += panel.halves
                 else:
-                    first.halving_change = max(
-                        change, transport_error if transport_error > MAX_TRANSPORT_ERROR else 0.0
-                    )
+                    first.halving_change = max(change, rate_error if rate_error > MAX_RATE_ERROR else 0.0)
             unconverged = further
         return panels
 
-    def _compute_propagators(self, panels: list[Panel]) -> None:
-        """Compute propagator P and transport error of each panel by Gauss collocation of order 6; store them in it."""
+    def _set_propagators(self, panels: list[Panel]) -> None:
+        """Set `P` and `rate_error` of each panel by Gauss collocation of order 6, with states from a run."""
         nodes = [panel.nodes for panel in panels]
         states = self._compute_states(
             sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends})
@@ -370,9 +368,9 @@ class Tangent:
         )
         K = np.linalg.solve(matrix, A.reshape(count, 3 * size, size)).reshape(count, 3, size, size)
         for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
-            panel.P, panel.transport_error = (
+            panel.P, panel.rate_error = (
                 P,
-                self._compute_transport_error(P, *(self._compute_rates(t, *states[t]) for t in panel.ends)),
+                self._compute_rate_error(P, *(self._compute_rates(t, *states[t]) for t in panel.ends)),
             )
 
     def _compute_rates(self, t: float, qv: Array, discrete_states: Array) -> Array:
@@ -380,9 +378,9 @@ class Tangent:
         y, q_dep = self.flow.reduce_state(t, qv)
         return self.flow.compute_rates(t, y, q_dep, discrete_states)
 
-    def _compute_transport_error(self, P: Array, rates_at_begin: Array, rates_at_end: Array) -> float:
-        """Return the relative error with which P maps the rates ẏ at the begin of a panel to those at its end."""
-        w, size = self._compute_scales(), len(rates_at_begin)
+    def _compute_rate_error(self, P: Array, rates_at_begin: Array, rates_at_end: Array) -> float:
+        """Return the norm of P ẏ(begin) − ẏ(end) of a panel, relative to the larger of the rates (2m,) at its ends."""
+        w, size = self._compute_variable_scales(), len(rates_at_begin)
         mapped_rates = P @ np.concatenate([rates_at_begin, np.zeros(self.flow.joints), [1.0]])
         largest = max(float(np.linalg.norm(rates / w[:size])) for rates in (rates_at_begin, rates_at_end))
         return float(np.linalg.norm((mapped_rates[:size] - rates_at_end) / w[:size])) / max(
@@ -394,15 +392,15 @@ class Tangent:
         y, q_dep = self.flow.reduce_state(t, qv)
         return self.flow.compute_jacobian(t, y, q_dep, discrete_states)
 
-    def _compute_scales(self) -> Array:
-        """Return the scales of y and of δ̇⁻, (2m + n_clearances,): differences that count as 1."""
+    def _compute_variable_scales(self) -> Array:
+        """Return the scales (2m + n_clearances,) of y and δ̇⁻, by which differences are divided for norms."""
         largest, crossing = float(self.measure.scales[: self.measure.n].max()), self.measure.crossing_time
         q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
         return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
 
     def _compare_propagators(self, P: Array, Q: Array) -> float:
         """Return the norm of the difference of two propagators relative to that of the first, in scaled variables."""
-        w = self._compute_scales()
+        w = self._compute_variable_scales()
         P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
         return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
 
@@ -492,6 +490,6 @@ class Tangent:
         return self.flow.expand_difference(t, y, q_dep, d, 1e-6 / largest)
 
     def _compute_tangent_norm(self, state: State, z: Array) -> float:
-        """Return the scaled norm of the coordinates' part of the tangent vector z at a state."""
+        """Return the norm of the tangent vector z at a state: that of (q, q̇) of all bodies, without δ̇⁻ and t."""
         y, q_dep = self.flow.reduce_state(state.t, flatten_state(state))
         return self.measure.compute_norm(self._expand_difference(state.t, y, q_dep, z[: 2 * self.flow.m]))

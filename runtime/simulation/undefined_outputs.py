@@ -13,14 +13,14 @@ from gudgeon.language.undefined_parts import is_total_expression
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import explain_nonfinite_part, read_expression_trees
+from gudgeon.model.file_expressions import explain_nonfinite_part, read_expression_trees
 from gudgeon.results.results import Result
 from gudgeon.results.series import get_catalogue
 
 
 @dataclass(frozen=True)
 class _Expression:
-    """An expression that is checked at samples, and its inputs."""
+    """Hold an expression that is checked at samples, and its inputs."""
 
     name: str  # for messages
     tree: Expr
@@ -30,10 +30,10 @@ class _Expression:
 
 @cache_by_values
 def list_checked_expressions(source: KernelSource) -> tuple[_Expression, ...]:
-    """Return the expressions of a scene to check: its outputs, then drives and forces that compare with `where`.
+    """Return the expressions of a scene to check: its outputs, then drives and forces with a `where`.
 
-    C takes one branch of a `where` whose operand is not a number. Expressions with names that results do not have are
-    left out.
+    C evaluates one branch of a `where` silently if a compared operand is not a number. Drives and forces whose operands
+    are always finite are left out, and so are expressions with names that results do not have.
     """
     catalogue = get_catalogue(source)
     trees = {f"output {name}": from_json(tree) for name, tree in source.outputs.items() if name in catalogue}
@@ -60,7 +60,7 @@ def list_checked_expressions(source: KernelSource) -> tuple[_Expression, ...]:
 
 
 class UndefinedOutputs:
-    """Collect where the checked expressions of a scene are not numbers, from samples that are added block by block."""
+    """Count the samples at which the checked expressions of a scene are not finite, block by block."""
 
     def __init__(self, source: KernelSource) -> None:
         self.source, self.expressions = source, list_checked_expressions(source)
@@ -93,12 +93,12 @@ class UndefinedOutputs:
         """Return why an expression is not a number at sample k, from the values (N,) of its inputs."""
         value = np.broadcast_to(evaluate(expression.tree, values.__getitem__), t.shape)[k]
         explanation = explain_nonfinite_part(self.source, expression.tree, lambda name: float(values[name][k]))
-        return f"{expression.name} is no number ({value}) at t = {t[k]:.9g} s: {explanation}"
+        return f"{expression.name} is not finite ({value}) at t = {t[k]:.9g} s: {explanation}"
 
     def build_notes(self) -> tuple[str, ...]:
         """Return a note for each expression that is not a number at some sample, after all samples."""
         return tuple(
-            message + (f"; it is none at {count} of {self.n_samples} samples" if count > 1 else "")
+            message + (f"; it is not finite at {count} of {self.n_samples} samples" if count > 1 else "")
             for message, count in zip(self.messages, self.counts, strict=True)
             if count
         )

@@ -53,12 +53,12 @@ if TYPE_CHECKING:
 NODES, WEIGHTS = 0.5 * (leggauss(4)[0] + 1.0), 0.5 * leggauss(4)[1]
 ENDS = np.concatenate([[0.0], np.cumsum(WEIGHTS)])  # bounds of each node's part of the interval
 # matrix from values at the nodes to those at the bounds
-TO_ENDS = np.vander(ENDS, 4) @ np.linalg.inv(np.vander(NODES, 4))
-MOST_POINTS = 1_000_000
+NODES_TO_ENDS = np.vander(ENDS, 4) @ np.linalg.inv(np.vander(NODES, 4))
+MAX_POINTS = 1_000_000  # largest number of cells of a circumference
 # exponents of m, kg, s of k, of H, and of k/H in m³/(N·m)
-NOTHING, PRESSURE, SPECIFIC = (0, 0, 0), (-1, 1, -2), (1, -1, 2)
-CONTACT = ("point", "overlap")
-NOT_AGAIN = "the run could not be repeated bit for bit: what rubbed in it is not known"
+DIMENSIONLESS, PRESSURE, SPECIFIC_RATE = (0, 0, 0), (-1, 1, -2), (1, -1, 2)
+CONTACT_MODELS = ("point", "overlap")
+NOTE_NOT_REPEATABLE = "the run could not be repeated bit for bit: the loads of its sliding contacts are not known"
 
 
 def wear(
@@ -106,7 +106,7 @@ def wear(
         raise_bad_value("law", law, " or ".join(LAWS))
     repetition = repeat_run_exactly(simulation, run, run.t, progress, (requested,))
     if repetition is None:
-        raise GudgeonError(NOT_AGAIN)
+        raise GudgeonError(NOTE_NOT_REPEATABLE)
     return _build_wear(run, repetition.diagnostics.rubbed[0], rates, law)
 
 
@@ -115,20 +115,18 @@ def _build_sliding_request(
 ) -> SlidingRequest:
     """Check the arguments of `wear` and build the request to observe the joint between `since` and `until` (s).
 
-    None stands for the start or the end of the run. Raises BadValueError, UnknownNameError.
+    None: the start or the end of the run. Raises BadValueError, UnknownNameError.
     """
     check_joint_can_wear(run.source, joint)
-    if check_text(contact_model, "contact") not in CONTACT:
-        raise_bad_value("contact", contact_model, " or ".join(CONTACT))
+    if check_text(contact_model, "contact") not in CONTACT_MODELS:
+        raise_bad_value("contact", contact_model, " or ".join(CONTACT_MODELS))
     first, last = (build_start_state(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
     begin = first if since is None else check_number(since, "since")
     end = last if until is None else check_number(until, "until")
     if not first <= begin < end <= last:
         message_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
         raise BadValueError(message_of, hint="expected since before until, both within the run")
-    return SlidingRequest(
-        joint, check_integer(points, "points", 8, MOST_POINTS), begin, end, contact_model == "overlap"
-    )
+    return SlidingRequest(joint, check_integer(points, "points", 8, MAX_POINTS), begin, end, contact_model == "overlap")
 
 
 def check_joint_can_wear(source: KernelSource, joint: Any) -> None:
@@ -142,12 +140,12 @@ def check_joint_can_wear(source: KernelSource, joint: Any) -> None:
         hint = f"its joints with play: {', '.join(clearance.name for clearance in source.clearances) or 'none'}"
         raise UnknownNameError(f"no wear of {shorten_value(joint)}: expected a joint with play", hint=hint)
     if matching[0].is_corner:
-        message_of = f"no wear of {joint}: a corner of a slider, and wear is told of bearings, over their circumference"
+        message_of = f"no wear of {joint}: it is a corner of a slider, and wear is computed for bearings only"
         raise BadValueError(message_of, hint="expected a revolute joint with play")
     if not matching[0].dry:
-        raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
+        raise BadValueError(f"{joint} has a film only: nothing wears", hint="expected a contact with a normal law")
     if not has_known_contact_force(source, matching[0]):
-        message_of = f"no wear of {joint}: what its film bears is known where all laws are gudgeon's own"
+        message_of = f"no wear of {joint}: the force of its film is not known with user-defined laws"
         raise BadValueError(
             message_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film"
         )
@@ -164,8 +162,8 @@ def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> f
         return check_positive(parse_quantity(value, what, exponents) if isinstance(value, str) else value, what)
 
     if hardness is None:
-        return parse_positive(k, k_name, SPECIFIC)
-    return parse_positive(k, k_name, NOTHING) / parse_positive(hardness, hardness_name, PRESSURE)
+        return parse_positive(k, k_name, SPECIFIC_RATE)
+    return parse_positive(k, k_name, DIMENSIONLESS) / parse_positive(hardness, hardness_name, PRESSURE)
 
 
 def _build_wear(run: Result, loads: SlidingLoads, rates: tuple[float, float], law: str) -> Wear:
@@ -183,9 +181,7 @@ def _build_wear(run: Result, loads: SlidingLoads, rates: tuple[float, float], la
 
 
 class WearObserver:
-    """Observe the contacts of a joint over all steps of one run, and add up load and friction over its
-    circumference.
-    """
+    """Observe the contacts of a joint over all steps of one run: sums of load and friction over its circumference."""
 
     def __init__(
         self, compiled: CompiledModel, request: SlidingRequest, parameter_arrays: tuple[Array, Array, Array]
@@ -257,7 +253,7 @@ class WearObserver:
             self.rigid | (delta > 0.0),
         )  # a rigid contact is closed at δ = 0
         slip = w * np.where(touching, np.abs(v_t), 0.0)
-        loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
+        loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # tension causes no wear
         self.slip += float(slip.sum())
         half_widths = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.requested.overlap else None
         for side, body in enumerate((self.joint.first, self.joint.second)):
@@ -266,12 +262,14 @@ class WearObserver:
             self._distribute_loads(side, angle, half_widths, loads)
 
     def _distribute_loads(self, side: int, angle: Array, half_widths: Array | None, loads: Array) -> None:
-        """Add the loads of each quadrature point to the cells of the arc that the contact sweeps on one surface.
+        """Add the loads of each quadrature point to the cells of the arc that the contact sweeps on a surface.
+
+        `load` and `friction` of that surface are updated.
 
         `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: those of the contact in rad,
         or None for contact at a point; `loads` (2, K·points).
         """
-        ends = angle @ TO_ENDS.T
+        ends = angle @ NODES_TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
         worn = distribute_loads(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
         self.load[side] += worn[0]
@@ -285,9 +283,9 @@ class WearObserver:
         x, a = self.interpolant.steps, self.interpolant.run.a[1:]
         h = (x.t[k + 1] - x.t[k])[:, None, None]
         q0, q1, v0, v1, a0, a1 = (array[rows][:, None] for array in (x.q, x.v, a) for rows in (k, k + 1))
-        way = q1 - q0 - h * v0 - 0.5 * h**2 * a0  # what a parabola from the first state misses at the second
-        rate, bend = h * (v1 - v0 - h * a0), h**2 * (a1 - a0)
-        c3, c4, c5 = 10 * way - 4 * rate + 0.5 * bend, -15 * way + 7 * rate - bend, 6 * way - 3 * rate + 0.5 * bend
+        r0 = q1 - q0 - h * v0 - 0.5 * h**2 * a0  # error of a parabola from the first state at the second
+        r1, r2 = h * (v1 - v0 - h * a0), h**2 * (a1 - a0)  # errors of its first and second derivative
+        c3, c4, c5 = 10 * r0 - 4 * r1 + 0.5 * r2, -15 * r0 + 7 * r1 - r2, 6 * r0 - 3 * r1 + 0.5 * r2
         q = q0 + s * (h * v0 + s * (0.5 * h**2 * a0 + s * (c3 + s * (c4 + s * c5))))
         v = v0 + s * (h * a0 + s / h * (3 * c3 + s * (4 * c4 + s * 5 * c5)))
         return q, v

@@ -33,7 +33,7 @@ from gudgeon.language.text_output import format_one_line
 from gudgeon.model.contours import find_contour, read_contours
 from gudgeon.model.parameter_sets import ParameterSets, read_given_parameters_of_runs, read_parameter_rows
 from gudgeon.results.wear import LAWS, POINTS, SlidingLoads, SlidingRequest, Worn, WornJoint
-from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_joint_can_wear, parse_wear_rate
+from gudgeon.simulation.wear import CONTACT_MODELS, MAX_POINTS, check_joint_can_wear, parse_wear_rate
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
@@ -41,12 +41,12 @@ if TYPE_CHECKING:
     from gudgeon.results.state import Array
     from gudgeon.simulation.simulation import Simulation
 
-MOST_ROUNDS, MOST_PASSES = 10_000, 100
+MAX_ROUNDS, MAX_PASSES = 10_000, 100  # largest numbers of rounds and of smoothing passes
 
 
 @dataclass(frozen=True)
 class WearModel:
-    """Hold how bearings wear: joints, law, wear rate k/H (1/Pa), number of runs that a run stands for, resolution."""
+    """Hold how bearings wear: joints, law, wear rate k/H (1/Pa), factor of the wear of each run, and resolution."""
 
     joints: tuple[str, ...]
     rate: float
@@ -110,21 +110,21 @@ def wear_loop(
     names = _check_joints(check_instance(simulation, "simulation", Simulation), joints)
     if check_text(law, "law") not in LAWS:
         raise_bad_value("law", law, " or ".join(LAWS))
-    if check_text(contact, "contact") not in CONTACT:
-        raise_bad_value("contact", contact, " or ".join(CONTACT))
+    if check_text(contact, "contact") not in CONTACT_MODELS:
+        raise_bad_value("contact", contact, " or ".join(CONTACT_MODELS))
     wearing = WearModel(
         names,
         parse_wear_rate(k, hardness, "k", "hardness"),
         law,
         check_positive(scale, "scale"),
-        check_integer(points, "points", 8, MOST_POINTS),
+        check_integer(points, "points", 8, MAX_POINTS),
         contact == "overlap",
-        check_integer(passes, "passes", 0, MOST_PASSES),
+        check_integer(passes, "passes", 0, MAX_PASSES),
         -np.inf if since is None else check_number(since, "since"),
     )
     loop = WearLoop(simulation, wearing, read_contours(simulation.source, contour, allows_runs=True))
     check_callable(progress, "progress")
-    count = check_integer(rounds, "rounds", 1, MOST_ROUNDS)
+    count = check_integer(rounds, "rounds", 1, MAX_ROUNDS)
     for k_round in range(count):
         round_progress = scale_progress(progress, k_round, count)
         loop.run_round({} if parameters is None else parameters, t_end, progress=round_progress, **options)
@@ -146,7 +146,7 @@ class WearLoop:
         self.failures: dict[int, str] = {}
 
     def run_round(self, parameters: ParameterSets, t_end: Any, **options: Any) -> Batch:
-        """Run all runs once with the present contours, deepen the contours by the wear, and return the Batch.
+        """Run all runs once with the current contours, deepen the contours by the wear, and return the Batch.
 
         `options`: further arguments of simulate_many. Failed runs are recorded and deepen nothing. Raises
         KeyboardInterrupt after Ctrl-C.
@@ -270,7 +270,7 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
             )
             raise UnknownNameError(f"{joint} has no contour that wear could deepen", hint=hint)
     if len(set(names)) < len(names):
-        raise BadValueError("joints: one is named twice", hint="name each once")
+        raise BadValueError(f"joints is {shorten_value(list(names))}: expected different names", hint="name each once")
     return names
 
 

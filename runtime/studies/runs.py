@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.errors import GudgeonError, SolverError
-from gudgeon.integrators.adaptive import SMALLEST
+from gudgeon.integrators.adaptive import MIN_RTOL
 from gudgeon.integrators.trajectory import Progress
 from gudgeon.model.compiled import Array
 from gudgeon.model.default_step import evaluate_end, evaluate_scene_end, evaluate_scene_step
@@ -69,7 +69,7 @@ class Setting:
 
         A tolerance does not fall below the smallest one that the integrator accepts.
         """
-        least = 0.0 if self.has_fixed_step else SMALLEST
+        least = 0.0 if self.has_fixed_step else MIN_RTOL
         return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
 
     def __str__(self) -> str:

@@ -9,31 +9,31 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.large import LARGE
+from gudgeon.assembly.large import MIN_SPARSE_COORDINATES
 from gudgeon.assembly.linkage import compute_mechanism_size
-from gudgeon.assembly.rank import OPEN, list_redundant_equations
+from gudgeon.assembly.rank import MAX_REDUNDANT_VIOLATION, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, RuntimeParameter
 from gudgeon.contract.methods import EXPLICIT, KINEMATIC, TAYLOR
 from gudgeon.integrators.adaptive import (
-    FELT_BY_FILMS,
+    MAX_FILM_SPEED_ERROR,
     RTOL,
     find_integrated_angles,
     select_first_method,
     select_stiff_method,
 )
-from gudgeon.integrators.kinematic import REACH
+from gudgeon.integrators.kinematic import MAX_CORRECTION
 from gudgeon.language.tree import to_json
 from gudgeon.language.undefined_parts import DIVIDING
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.default_step import SMOOTH, T_END, estimate_default_step
+from gudgeon.model.default_step import MAX_STEP_FRACTION, T_END, estimate_default_step
+from gudgeon.model.file_expressions import find_partial_expressions
 from gudgeon.model.parameters import GAINS, list_conditions, prepare_values
 from gudgeon.model.sizes import find_size_indices
-from gudgeon.model.written import find_partial_expressions
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
-from gudgeon.simulation.hidden_jumps import may_jump
+from gudgeon.simulation.hidden_jumps import needs_jump_search
 
 DRIFT_STEP_FRACTION = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the length of the run
 HIDDEN_JUMPS_NOTE = "jumps that a drive's expression does not show are located in Python only"
@@ -76,14 +76,14 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "film": any(joint.film for joint in source.clearances),
         "beyond": compiled.has_mod_in_drives,
         "rtol": RTOL,
-        "felt_by_films": FELT_BY_FILMS,
-        "reach": REACH,
+        "felt_by_films": MAX_FILM_SPEED_ERROR,
+        "reach": MAX_CORRECTION,
         "memory": source.n_memory,
         "events": [[event.name, event.action] for event in source.events],
         "widths": _count_array_columns(source),
         "unknown": _list_indeterminate_series(source),
         "left_out": _list_redundant_rows(compiled),
-        "open": OPEN,
+        "open": MAX_REDUNDANT_VIOLATION,
         "rows": [[row.owner, row.unit] for row in source.start_rows],
         "simulate": _collect_default_options(source),
         "step": _compute_default_step(compiled, drift_step),
@@ -95,7 +95,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
             for name, series in get_catalogue(source).items()
             if name in source.outputs
         },
-        "notes": [HIDDEN_JUMPS_NOTE] if may_jump(source) else [],
+        "notes": [HIDDEN_JUMPS_NOTE] if needs_jump_search(source) else [],
     }
     return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -190,7 +190,7 @@ def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> 
     """
     if "rk4" not in compiled.source.methods:
         return None if drift_step is None else [DRIFT_STEP_FRACTION, drift_step]
-    return [SMOOTH, estimate_default_step(compiled, prepare_values(compiled, {})[0], math.inf)]
+    return [MAX_STEP_FRACTION, estimate_default_step(compiled, prepare_values(compiled, {})[0], math.inf)]
 
 
 def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
@@ -199,11 +199,11 @@ def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
     For mechanisms of LARGE or more coordinates it is always returned, since C cannot assemble them.
     """
     p = prepare_values(compiled, {})[0]
-    if compiled.n < LARGE:
+    if compiled.n < MIN_SPARSE_COORDINATES:
         start_position = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
         if start_position is not None and np.isfinite(start_position[1]).all():
             return None
-    start, is_large = assemble_start(compiled, p), compiled.n >= LARGE
+    start, is_large = assemble_start(compiled, p), compiled.n >= MIN_SPARSE_COORDINATES
     array_sizes = [max(len(array), 1) for array in compiled.start_values(p)]
     start_json = {
         "q": start.q.tolist(),

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.written import find_partial_expressions
+from gudgeon.model.file_expressions import find_partial_expressions
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import build_description
 from gudgeon.web.module import compile_simulator

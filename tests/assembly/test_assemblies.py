@@ -198,11 +198,11 @@ def test_what_is_too_short_is_measured_between_points_that_joints_use(tmp_path: 
 def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
     """One that is by hundreds longer than all others; not one that is only too long."""
     file = tmp_path / "four.yaml"
-    for ground, message in (("180", "times the next longest: was 180 mm meant?"), ("5", "")):
+    for ground, message in (("180", "times the next longest: is it 180 mm?"), ("5", "")):
         file.write_bytes(four_bar(ground=ground))
         with pytest.raises(AssemblyError) as caught:
             gudgeon.load(file).start()
-        assert message in str(caught.value) and ("was" in str(caught.value)) == bool(message)
+        assert message in str(caught.value) and ("is it" in str(caught.value)) == bool(message)
 
 
 def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
@@ -235,7 +235,7 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
             gudgeon.load(bars).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
         (one,) = caught
         message = str(one.message)
-        assert message.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
+        assert message.startswith("starts deviate from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
         assert one.filename == __file__
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
     assert found(close).scenes["ideal"].guess_deviations == {}

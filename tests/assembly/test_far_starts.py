@@ -61,7 +61,9 @@ def test_a_start_far_away_assembles(written: float, x: float, ask: str, hangs: b
 
 def test_what_cannot_be_met_far_away_is_told(tmp_path: Path) -> None:
     ask = 'drives: {push: {coordinate: cart.x, value: "1000 m"}}\nstart: {set: {cart.x: 999 m}}'
-    with pytest.raises(AssemblyError, match=r"cannot be assembled: rows set cart.x .500 mm., push .-500 mm, line 12."):
+    with pytest.raises(
+        AssemblyError, match=r"cannot be assembled: constraint equations set cart.x .500 mm., push .-500 mm, line 12."
+    ):
         loader(tmp_path)(CART.format(x=0, bob="", pin="", ask=ask)).start()
 
 
@@ -88,8 +90,8 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     heavy, heaviest = (loader(tmp_path)(ENGINE.format(mass=mass)) for mass in (1e10, 1e20))
     assert [each.start().v[6] for each in (heavy, heaviest)] == pytest.approx([speed, speed], rel=1e-9)
     heavier = r"rod \(1e\+100 .* and crank"
-    with pytest.raises(AssemblyError, match=rf"the inertias of {heavier}.*too far apart"):
+    with pytest.raises(AssemblyError, match=rf"the inertias of {heavier}.*have too large a ratio"):
         heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e100})
     p = prepare_values(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
-    with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* are too far apart"):
+    with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* too large a ratio"):
         heavy.compiled.check_pivot(1, 0.0, p=p)

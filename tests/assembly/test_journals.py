@@ -159,7 +159,7 @@ DEEP = 2e-6
 
 
 @pytest.mark.parametrize("method", ["dop853", "rk4", "scipy:DOP853"])
-@pytest.mark.parametrize(("speed", "message"), [(0.02, ""), (-0.02, "part at 0.02 m/s"), (0.0, "are at rest")])
+@pytest.mark.parametrize(("speed", "message"), [(0.02, ""), (-0.02, "separate at 0.02 m/s"), (0.0, "are at rest")])
 def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float, message: str) -> None:
     """δ̇⁻ of an onset without loss: m δ̇⁻²/2 = m δ̇²/2 + K δ^2.5/2.5; the first force by hand; the run tells of it."""
     n = np.array([0.6, 0.8])
@@ -233,10 +233,12 @@ def test_an_override_brings_it_into_any_file(scenes: Scenes) -> None:
 def test_an_eccentricity_in_metres_by_mistake_is_told(e: str, scenes: Scenes) -> None:
     """It was a start that does not close, or a journal that lies deep at once: bare numbers are m."""
     file = scenes.file("metres", CRANK.replace("e: [out, 0.04 mm]", f"e: {e}"))
-    with pytest.raises(AssemblyError, match=r"(?s)start\.play\.A\.e is \d+.* mm long.*bare number is in m"):
+    with pytest.raises(
+        AssemblyError, match=r"(?s)start\.play\.A\.e has a length of \d+.* mm.*number without a unit is in m"
+    ):
         gudgeon.load(file, "dry").simulate(1e-4)
     done = CliRunner().invoke(app, ["check", str(file)])
-    assert done.exit_code != 0 and "start.play.A.e is" in done.output
+    assert done.exit_code != 0 and "start.play.A.e has a length of" in done.output
 
 
 def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scenes) -> None:
@@ -244,7 +246,7 @@ def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scene
     most = C + R / 10.0
     texts = []
     for e in (2.0 * most, most * (1.0 + 1e-7)):
-        with pytest.raises(AssemblyError, match=r"start\.play\.A\.e is") as alone:
+        with pytest.raises(AssemblyError, match=r"start\.play\.A\.e has a length of") as alone:
             scenes.free.simulate(1e-4, parameters=numbers([e, 0.0], [0.0, 0.0]))
         texts.append(str(alone.value))
     columns = numbers([0.0, 0.0], [0.0, 0.0]) | {"start.play.A.e.x": [2.0 * most, most * (1.0 + 1e-7), 1e-5]}
@@ -252,8 +254,8 @@ def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scene
     assert {failure.run: str(failure.error) for failure in batch.failures} == dict(enumerate(texts))
     nearly = numbers([most * (1.0 - 1e-7), 0.0], [0.0, 0.0])
     check_journal_positions(scenes.free.compiled, prepare_values(scenes.free.compiled, nearly)[0])  # so deep may it lie
-    assert "2.6 mm long and may be 1.3 mm" in texts[0] and "bare number" not in texts[0]
-    length, limit = re.findall(r"(\S+) mm long and may be (\S+) mm", texts[1])[0]
+    assert "a length of 2.6 mm: expected 1.3 mm at most" in texts[0] and "without a unit" not in texts[0]
+    length, limit = re.findall(r"a length of (\S+) mm: expected (\S+) mm at most", texts[1])[0]
     assert float(length) > float(limit) == pytest.approx(1.3)
 
 
@@ -284,5 +286,5 @@ def test_check_tells_of_a_start_in_the_wall(scenes: Scenes) -> None:
 
 def test_a_deep_start_is_not_the_steps_fault(scenes: Scenes) -> None:
     run = scenes.free.simulate(1e-6, output=2, parameters=numbers([C + 0.2e-3, 0.0], [-0.01, 0.0]))
-    notes = [note for note in run.diagnostics.notes if "outside what contact laws hold for" in note]
-    assert len(notes) == 1 and "from the start on" in notes[0] and "step" not in notes[0]
+    notes = [note for note in run.diagnostics.notes if "outside the validity of contact laws" in note]
+    assert len(notes) == 1 and "the start is that deep" in notes[0] and "step" not in notes[0]

@@ -41,7 +41,7 @@ def squares(angle: float, n: int = N) -> Array:
 @pytest.mark.parametrize("least", [1e-9, 1e-6, 1e-4])
 def test_rank_and_tied_rows_are_those_of_a_dense_decomposition(angle: float, least: float) -> None:
     matrix = squares(angle)
-    assert matrix.shape[1] >= large.LARGE
+    assert matrix.shape[1] >= large.MIN_SPARSE_COORDINATES
     assert (
         rank.compute_rank(matrix, least)
         == rank._compute_rank_by_svd(matrix, least)

@@ -233,7 +233,7 @@ def check(
     there = contents(folder)
     if status < 0 or "Traceback" in specified or "Exception ignored" in specified:
         wrong.append(f"{free}: ended with {status}: {specified[-300:]}")
-    if status == 0 and there != newer and "not kept" not in specified:
+    if status == 0 and there != newer and "not stored" not in specified:
         wrong.append(f"{free}: says that all is written, and it is not")
     if status != 0 and not ("No space left" in specified or "nothing can be written" in specified):
         wrong.append(f"{free}: does not say why: {specified[-300:]}")

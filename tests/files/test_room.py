@@ -236,7 +236,7 @@ def test_what_follows_from_samples_and_a_file_that_is_too_large(
     with monkeypatch.context() as short:
         short.setattr(free_space, "MIN_CHECKED_BYTES", 0)
         short.setattr(free_space, "read_free_memory", lambda: 1e6)
-        with pytest.raises(MemoryError, match="what follows from 20001 samples would take"):
+        with pytest.raises(MemoryError, match="the evaluated quantities of 20001 samples would take"):
             pendulum.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)
     with monkeypatch.context() as short:
         short.setattr(os, "statvfs", lambda path: Disk(1000))

@@ -17,7 +17,7 @@ import pytest
 from gudgeon.errors import CacheError
 from gudgeon.files import trust
 from gudgeon.files.trust import UntrustedPathError, check_trusted_path
-from gudgeon.loading.cache import LIST, Cache, get_private_cache, is_complete
+from gudgeon.loading.cache import CHECKSUM_FILE, Cache, get_private_cache, is_complete
 from tests.loading.test_cache import Writer
 
 OTHER = 54321  # a user who is neither we nor root
@@ -66,10 +66,10 @@ def open_to(bits: int) -> Callable[[Path], None]:
 
 
 @pytest.mark.parametrize("what", ["group", "others", "another's"])
-@pytest.mark.parametrize("where", [".", "models", "models/one", "models/one/text", f"models/one/{LIST}"])
+@pytest.mark.parametrize("where", [".", "models", "models/one", "models/one/text", f"models/one/{CHECKSUM_FILE}"])
 def test_what_others_may_write_is_not_used(root: Path, give: Callable[[Path], None], where: str, what: str) -> None:
     (root / "models" / "one" / "text").write_bytes(b"evil")
-    sums = root / "models" / "one" / LIST
+    sums = root / "models" / "one" / CHECKSUM_FILE
     sums.write_text(f"{hashlib.sha256(b'evil').hexdigest()} text\n{sums.read_text().splitlines()[-1]}\n")
     assert is_complete(root / "models" / "one"), "checksums and all"
     {"group": open_to(0o020), "others": open_to(0o002), "another's": give}[what](root / where)
@@ -185,8 +185,8 @@ def test_a_file_that_is_a_link_is_not_read(root: Path) -> None:
 def test_a_list_that_leads_out_of_the_entry_is_not_read(root: Path) -> None:
     entry = root / "models" / "one"
     (entry / "text").rename(root / "text")
-    listed = (entry / LIST).read_text()
-    (entry / LIST).write_text(listed.replace(" text", " ../../text"))
+    listed = (entry / CHECKSUM_FILE).read_text()
+    (entry / CHECKSUM_FILE).write_text(listed.replace(" text", " ../../text"))
     assert not is_complete(entry)
 
 
@@ -214,11 +214,11 @@ def test_what_another_user_put_into_a_shared_folder_is_not_loaded() -> None:
                 os.setgroups([])
                 os.setgid(OTHER)
                 os.setuid(OTHER)
-                end = (entry / LIST).read_text().splitlines()[-1]
-                for path in (entry / "text", entry / LIST):
+                end = (entry / CHECKSUM_FILE).read_text().splitlines()[-1]
+                for path in (entry / "text", entry / CHECKSUM_FILE):
                     path.unlink()
                 (entry / "text").write_text("evil")
-                (entry / LIST).write_text(f"{hashlib.sha256(b'evil').hexdigest()} text\n{end}\n")
+                (entry / CHECKSUM_FILE).write_text(f"{hashlib.sha256(b'evil').hexdigest()} text\n{end}\n")
             finally:
                 os._exit(0)
         os.waitpid(child, 0)
@@ -227,7 +227,7 @@ def test_what_another_user_put_into_a_shared_folder_is_not_loaded() -> None:
             assert (Cache(shared).fetch("models", "shared", text("honest")) / "text").read_text() == "honest"
         shared.chmod(0o700)  # made the user's own again, and the entry in it was not looked at
         (shared / "models").chmod(0o700)
-        with pytest.warns(RuntimeWarning, match="made anew"):
+        with pytest.warns(RuntimeWarning, match="created again"):
             assert (Cache(shared).fetch("models", "shared", text("honest")) / "text").read_text() == "honest"
     finally:
         shutil.rmtree(above)

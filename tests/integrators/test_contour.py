@@ -192,7 +192,7 @@ def test_a_batch_has_a_contour_a_run(worn: Simulation, tmp_path: Path) -> None:
     on = worn.simulate(0.006, output=10, start=run.final)
     assert np.array_equal(on.p, run.p)
     other = worn.simulate(0.006, output=10, start=run.final, contour={"J": several[1]})
-    assert any("other numbers" in note for note in other.diagnostics.notes)
+    assert any("other parameter values" in note for note in other.diagnostics.notes)
 
 
 def test_what_is_no_contour_is_refused(worn: Simulation, file: Path) -> None:

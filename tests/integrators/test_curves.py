@@ -86,10 +86,10 @@ def test_a_cam_whose_end_does_not_meet_its_beginning_is_told(tmp_path: Path, end
     text = CAM.replace("ends: periodic", f"ends: {ends}").replace("lift(omega * t)", "lift(mod(omega * t, 2*pi))")
     scene, turn = loader(tmp_path)(text), 2.0 * np.pi / 10.0
     run = scene.simulate(turn + 0.1, output=np.array([0.0, turn - 1e-9, turn + 1e-9, turn + 0.1]))
-    notes = [note for note in run.diagnostics.notes if note.startswith("drive cam: where mod begins curve lift anew")]
+    notes = [note for note in run.diagnostics.notes if note.startswith("drive cam: where mod restarts curve lift, ")]
     checked = CliRunner().invoke(app, ["check", *map(str, tmp_path.glob("*.yaml"))]).output
-    assert bool(notes) == ("curve: drive cam: where mod begins" in checked) == (order is not None)
-    assert not [note for note in scene.simulate(turn - 0.1).diagnostics.notes if "anew" in note]
+    assert bool(notes) == ("curve: drive cam: where mod restarts" in checked) == (order is not None)
+    assert not [note for note in scene.simulate(turn - 0.1).diagnostics.notes if "mod restarts" in note]
     if order is not None:
         scipys = {"not_a_knot": "not-a-knot"}.get(ends, ends)
         spline = CubicSpline(np.radians(ANGLES), np.array(LIFTS) * 1e-3, bc_type=scipys)

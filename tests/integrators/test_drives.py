@@ -152,14 +152,14 @@ def test_outputs_and_events_that_are_no_number_are_told(drives: str, tmp_path: P
     for formulation in ("reduced", "full"):
         run = gudgeon.load(file, formulation=formulation).simulate(1.0, output=100)
         assert [note.split(":")[0] for note in run.diagnostics.notes] == [
-            "event e is no number (NaN) at t = 0.7 s",
-            "output root is no number (nan) at t = 0.51 s",
-            "output third is no number (nan) at t = 0 s",
-            "output pole is no number (inf) at t = 0.5 s",
-            "output force is no number (nan) at t = 0 s",
-            "output either is no number (nan) at t = 0.51 s",
+            "event e is NaN at t = 0.7 s",
+            "output root is not finite (nan) at t = 0.51 s",
+            "output third is not finite (nan) at t = 0 s",
+            "output pole is not finite (inf) at t = 0.5 s",
+            "output force is not finite (nan) at t = 0 s",
+            "output either is not finite (nan) at t = 0.51 s",
         ]
-        assert run.diagnostics.notes[1].endswith(": sqrt of -0.01; it is none at 50 of 101 samples")
+        assert run.diagnostics.notes[1].endswith(": sqrt of -0.01; it is not finite at 50 of 101 samples")
         assert run.diagnostics.notes[3].endswith(": 1 divided by 0")
     batch = gudgeon.load(file).simulate_many({"t0": [0.5, 2.0]}, 1.0, output=100)
     assert batch[0].diagnostics.notes == run.diagnostics.notes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -187,7 +188,7 @@ def test_events_with_backends(load: Load) -> None:
         load(text).simulate(2.0, output=10, method="scipy:DOP853")
     run = load(text).simulate(2.0, output=10, method="scipy:DOP853", stop=False)
     assert run.t[-1] == 2.0
-    assert any("events are not watched" in note for note in run.diagnostics.notes)
+    assert any("does not locate events" in note for note in run.diagnostics.notes)
 
 
 DRIVEN = """
@@ -356,7 +357,7 @@ def test_a_fixed_step_that_loses_energy_is_told(tmp_path: Path) -> None:
     """A pin that rests on metal: rk4's own step gives 4 % of the weight as the mean force."""
     simulation = loader(tmp_path)(RESTING, "dry")
     coarse = simulation.simulate(0.5, method="rk4", output=200)
-    assert any("turned over: a step" in note for note in coarse.diagnostics.notes)
+    assert any(re.search("energy throughput of .* J: a step", note) for note in coarse.diagnostics.notes)
     assert simulation.simulate(0.5, output=200).diagnostics.notes == ()
 
 

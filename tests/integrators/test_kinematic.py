@@ -123,7 +123,7 @@ def test_runs_at_once_and_in_chunks_are_equal_to_the_bit(
     )
     simulation = gudgeon.load(mechanism) if excess is None else load(text)
     at_once = simulation.simulate(2.0, output=257)
-    monkeypatch.setattr(kinematic_ensemble, "SHORT", 0)
+    monkeypatch.setattr(kinematic_ensemble, "MAX_SHORT_RUN_SAMPLES", 0)
     in_chunks = simulation.simulate(2.0, output=257)
     for name in ("t", "q", "v", "accelerations", "work"):
         np.testing.assert_array_equal(getattr(at_once, name), getattr(in_chunks, name))

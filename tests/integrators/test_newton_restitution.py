@@ -323,7 +323,9 @@ def test_what_cannot_be_had_is_refused(folder: Path, tmp_path: Path) -> None:
         message = f":11:.*contact hard has newton_restitution and {part.partition(':')[0]}"
         with pytest.raises(BadValueError, match=message):
             gudgeon.load(file, "hard")
-    with pytest.raises(AssemblyError, match=r"start\.play\.A\.e is 1001 mm long and may be 1000 mm, the clearance"):
+    with pytest.raises(
+        AssemblyError, match=r"start\.play\.A\.e has a length of 1001 mm: expected 1000 mm at most, the clearance"
+    ):
         made(folder, BALL).simulate(0.1, parameters={"start.play.A.e.x": 1.001})
 
 

@@ -267,7 +267,7 @@ def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("rows", [pytest.param(4096, marks=pytest.mark.slow), 300])
 def test_peaks_of_all_steps_are_those_of_runs_alone(rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each lane has a tape of its own, which is fetched where the run alone would stop for it: at 100 rows of 300."""
-    monkeypatch.setattr(steps, "ROWS", rows)
+    monkeypatch.setattr(steps, "N_ROWS_OF_BLOCK", rows)
     seen, press = Seen(monkeypatch), gudgeon.load("nine_bar_press", "dry")
     beside, alone = both(press, {"omega": np.linspace(6.0, 30.0, COUNT)}, 0.02, rtol=1e-6, peaks=["S9.ay", "A.F"])
     assert {*seen.used} == {*range(COUNT)} and len({run[0].max for run in beside.extremes}) > COUNT / 2

@@ -356,7 +356,7 @@ def test_a_comparison_with_what_is_no_number_is_told(tmp_path: Path) -> None:
     """The force had one of its branches, without a word; a branch that is not picked may be no number."""
     message = loader(tmp_path)(SLUG % "where(sqrt(slug.x/(1 m) - 1) < 1, 2 N, 3 N)").simulate(1.5, output=100)
     assert [note.split(":")[0] for note in message.diagnostics.notes] == [
-        "forces.push.value.x is no number (nan) at t = 0 s"
+        "forces.push.value.x is not finite (nan) at t = 0 s"
     ]
     law = "where(slug.x < 1 m, 2 N, where(sqrt(slug.x/(1 m) - 1) < 0.1, 2 N, 3 N))"
     assert not loader(tmp_path)(SLUG % law).simulate(1.5, output=100).diagnostics.notes

@@ -404,9 +404,9 @@ def test_edited_it_is_another_one_and_other_processes_need_it_for_equations_alon
     (disc.parent / "disc.pickle").write_bytes(pickle.dumps((simulation, run)))
     done = subprocess.run([sys.executable, "-c", OTHER], cwd=disc.parent, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.startswith("True\nthe law dashpot, with which this simulation was made, is not registered in")
+    assert done.stdout.startswith("True\nthe law dashpot of this simulation is not registered in")
     gudgeon.register(law_file(disc.parent, "D * s", "2 * D * s"))
-    with pytest.raises(InputError, match="the law dashpot, with which this simulation was made, is another one now"):
+    with pytest.raises(InputError, match="the law dashpot of this simulation has changed"):
         simulation.full  # noqa: B018
     edited = gudgeon.load(disc, "wall")
     assert edited.source.files != simulation.source.files

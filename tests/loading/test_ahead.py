@@ -17,7 +17,7 @@ from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import background_compilation, build
 from gudgeon.loading.background_compilation import BackgroundCompilation, build_command_lines
-from gudgeon.loading.cache import LIST, _write_checksums
+from gudgeon.loading.cache import CHECKSUM_FILE, _write_checksums
 from gudgeon.waiting.programs import Programs
 
 ROD = """\
@@ -89,7 +89,7 @@ def test_what_does_not_link_is_compiled_again_where_that_is_asked_for(own_folder
     gudgeon.load(own_folders / "rod.yaml")
     (entry,) = (own_folders / "cache" / "engines").iterdir()
     (entry / ENGINE).write_bytes(b"no object")
-    (entry / LIST).unlink()
+    (entry / CHECKSUM_FILE).unlink()
     _write_checksums(entry, entry)
     build._libraries.clear()
     (own_folders / "rod.yaml").write_text(ROD.replace("0.3, mass", "0.4, mass"))

@@ -37,7 +37,7 @@ FAILS = "raise SystemExit(1)"
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
     """An empty one; nothing is loaded yet."""
     monkeypatch.setattr(build, "_libraries", {})
-    monkeypatch.setattr(optimized_library, "_begun", [])
+    monkeypatch.setattr(optimized_library, "_started_processes", [])
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("GUDGEON_QUICK", "1")
     return Cache(tmp_path / "cache")
@@ -72,7 +72,7 @@ def same(a: Result, b: Result) -> bool:
 @pytest.mark.usefixtures("nobody")
 @pytest.mark.parametrize("method", ["rodas5p", pytest.param("rk4", marks=pytest.mark.slow)])
 def test_a_run_goes_on_with_the_optimized_library(cache: Cache, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(many, "CHUNK", 7)
+    monkeypatch.setattr(many, "MAX_STEPS_PER_CALL", 7)
     step = {"step": 1e-2} if method == "rk4" else {}
     simulation, called = loaded(), list[int]()
 
@@ -120,7 +120,7 @@ def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeyp
 
 
 def test_where_the_other_process_fails_the_next_start_makes_it(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(optimized_library, "OTHER", FAILS)
+    monkeypatch.setattr(optimized_library, "PROGRAM", FAILS)
     simulation = loaded()
     other = simulation.compiled.lib._pending_library
     assert isinstance(other, OptimizedLibrary) and other._process is not None and other._process.wait() == 1

@@ -15,7 +15,14 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import BuildError, CacheError
 from gudgeon.loading import cache as cache_module
-from gudgeon.loading.cache import LIST, Cache, compute_digest, get_default_cache, get_private_cache, is_complete
+from gudgeon.loading.cache import (
+    CHECKSUM_FILE,
+    Cache,
+    compute_digest,
+    get_default_cache,
+    get_private_cache,
+    is_complete,
+)
 
 
 @pytest.fixture
@@ -90,18 +97,18 @@ def flip(path: Path) -> None:
     path.write_bytes(data)
 
 
-@pytest.mark.parametrize("name", ["a.bin", "b.txt", LIST])
+@pytest.mark.parametrize("name", ["a.bin", "b.txt", CHECKSUM_FILE])
 @pytest.mark.parametrize("damage", [cut, flip, Path.unlink], ids=["cut", "flip", "remove"])
 def test_a_damaged_entry_is_made_again(folder: Cache, name: str, damage: Callable[[Path], None]) -> None:
     make = Writer()
     damage(folder.fetch("kind", "key", make) / name)
     assert is_complete(folder.fetch("kind", "key", make))
     # the newline at the end of the list is the one byte that nothing depends on
-    assert make.calls == (1 if (name, damage) == (LIST, cut) else 2)
+    assert make.calls == (1 if (name, damage) == (CHECKSUM_FILE, cut) else 2)
 
 
 def test_a_list_cut_anywhere_is_noticed(folder: Cache) -> None:
-    path = folder.fetch("kind", "key", Writer()) / LIST
+    path = folder.fetch("kind", "key", Writer()) / CHECKSUM_FILE
     text = path.read_bytes().rstrip()
     for length in range(len(text)):
         path.write_bytes(text[:length])

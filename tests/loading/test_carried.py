@@ -33,7 +33,7 @@ def carries_the_pendulum(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     folder.mkdir(parents=True)
     made = build.build_portable_library(tmp_path / "made", source, Cache(tmp_path / "cache"))
     made.rename(folder / library.compute_library_file_name(source))
-    monkeypatch.setattr(library, "CARRIED", tmp_path / "carried")
+    monkeypatch.setattr(library, "BUNDLED_FOLDER", tmp_path / "carried")
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "empty"))
     monkeypatch.setenv("PATH", "")
     monkeypatch.setitem(sys.modules, "ziglang", None)

@@ -62,7 +62,7 @@ def test_declarations_that_are_being_edited_are_parsed(monkeypatch: pytest.Monke
     """Not called as they were before."""
     compiled = gudgeon.load("pendulum").compiled
     file = next(each.file for each in _libraries() if each.lib is compiled.lib)
-    monkeypatch.setattr(declared, "OF", "another")
+    monkeypatch.setattr(declared, "SHA256", "another")
     library._get_engine_interface.cache_clear()
     try:
         parsed = library.open_library(file)

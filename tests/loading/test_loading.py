@@ -226,7 +226,7 @@ def test_what_the_generator_does_not_read_leaves_the_key(package: Path) -> None:
 
 def test_an_installation_without_mechanisms_says_that_it_is_not_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gudgeon.loading.shipped.list_shipped_mechanisms", lambda: ())
-    with pytest.raises(InputError, match=r"not whole.*\n.*make run"):
+    with pytest.raises(InputError, match=r"incomplete.*\n.*make run"):
         find_shipped_file("four_bar")
 
 

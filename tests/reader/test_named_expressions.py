@@ -25,8 +25,8 @@ from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.expressions import MAX_LEVELS, MAX_PARTS
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import iterate_names
+from gudgeon.model.file_expressions import explain_undefined_value_after
 from gudgeon.model.parameters import explain_address
-from gudgeon.model.written import explain_undefined_value_after
 from tests.scenes import patched
 
 LED = """\
@@ -196,8 +196,8 @@ def test_an_expression_is_no_number_that_can_be_set() -> None:
     source = KernelSource.from_json(generate_kernel_source(LED.encode(), "led.yaml", "ideal").to_json())
     for name in ("expressions.rate", "rate"):
         message, hint = explain_address(source, name)
-        assert message == "expressions.rate is an expression, compiled as it stands: it is no number that can be set"
-        assert hint.startswith("set what it is made of: reach, pace;")
+        assert message == "expressions.rate is a compiled expression: it is not a parameter that can be set"
+        assert hint.startswith("set its parameters: reach, pace;")
     with pytest.raises(UnknownNameError) as raised:
         check_addresses(["expressions.rate"], "led.yaml", [source])
     assert raised.value.where == Location("led.yaml", line_of(LED, "rate:"), 9)

@@ -8,8 +8,8 @@ import pytest
 from gudgeon.assembly.rank import compute_rank
 from gudgeon.contract import reduction_log as message
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.reduction_description import describe_reduced_system
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.reduction_words import describe_reduced_system
 from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.reduction.tree import OperationEstimate, choose_tree
 from gudgeon.loading.shipped import find_shipped_file

@@ -26,10 +26,10 @@ pytestmark = needs_compiler
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rtol": "x"}, "rtol is 'x': expected a share from 1e-14 to 1"),
-        ({"rtol": float("nan")}, "expected a share"),
-        ({"rtol": 1e-16}, "rounding would be controlled"),
-        ({"rtol": 2.0}, "expected a share"),
+        ({"rtol": "x"}, "rtol is 'x': expected a number from 1e-14 to 1"),
+        ({"rtol": float("nan")}, "expected a number from"),
+        ({"rtol": 1e-16}, "smaller tolerances are below rounding errors"),
+        ({"rtol": 2.0}, "expected a number from"),
         ({"rtol": 1e-6, "method": "rk4"}, "no tolerance"),
         ({"rtol": 1e-6, "step": 1e-3}, "leave out rtol"),
         ({"rtol": 1e-6, "step": 1e-3, "method": "dop853"}, "no tolerance"),

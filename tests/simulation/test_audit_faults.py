@@ -93,7 +93,7 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     stale = "    rhs->g[0] = rhs->g[1] = -1.0;"
     wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
     specified = reported(wrong, 6.0)  # whichever comes first
-    assert "check branch" in specified or "changes its side without end" in specified
+    assert "check branch" in specified or "changes its branch without end" in specified
 
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])

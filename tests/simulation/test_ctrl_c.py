@@ -146,7 +146,7 @@ def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkey
 def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """After Ctrl-C nothing is evaluated that takes long; asked for later it is the whole run's."""
     monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
-    monkeypatch.setattr(result_builder, "AFTER_CTRL_C", 0.0)
+    monkeypatch.setattr(result_builder, "MAX_BALANCE_TIME_S", 0.0)
     simulation, options = case(name, "auto")
     run, complete = simulation.simulate(progress=signal_at(number), **options), whole(name, "auto")
     assert run.diagnostics.interrupted and math.isnan(run.diagnostics.energy_residual)
@@ -163,7 +163,7 @@ def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypa
 def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """All samples are there, and their accelerations are found when they are asked for."""
     monkeypatch.setattr(result_builder, "POLL_INTERVAL_S", -1.0)
-    monkeypatch.setattr(evaluation, "FIRST", 1)
+    monkeypatch.setattr(evaluation, "FIRST_CHUNK_SAMPLES", 1)
     simulation, options = case("dry", "auto")
     looks = 0
 
@@ -280,7 +280,7 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
             raise KeyboardInterrupt
 
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e-9)
-    monkeypatch.setattr(lanes, "_made", WeakKeyDictionary())
+    monkeypatch.setattr(lanes, "_loaded_lanes", WeakKeyDictionary())
     monkeypatch.setattr(lanes, "_is_compiled", lambda *_: False)
     monkeypatch.setattr(lanes, "_load_lanes", compiled)
     batch = press.simulate_many({"c": np.full(40, 3e-4)}, 0.01, output=2, rtol=1e-4, threads=1, progress=progress)
@@ -294,7 +294,7 @@ def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
     given = (MECHANISMS / "nine_bar_press.yaml").read_text(encoding="utf-8")
     file = tmp_path / "printed.yaml"
     file.write_text(given.replace("viscosity: 100 cP}", "viscosity: 100 cP, as_printed: true}"), encoding="utf-8")
-    message = r"no longer advances at t = 0\.212(.|\n)*changes its form \(a corner of a law\)(.|\n)*computed is kept"
+    message = r"no longer advances at t = 0\.212(.|\n)*changes its form \(a switching point of a law\)(.|\n)*is stored"
     with pytest.raises(SolverError, match=message) as caught:
         gudgeon.load(file, "lubricated").simulate(0.5, output=500, parameters={"c": "0.6 mm", "omega": 3 * math.pi})
     run = caught.value.partial
@@ -328,9 +328,9 @@ def test_an_end_that_is_none(t_end: float | str) -> None:
 
 def test_an_end_within_the_rounding_of_the_start() -> None:
     final = press("dry").simulate(0.01, output=1).final
-    with pytest.raises(BadValueError, match="no room"):
+    with pytest.raises(BadValueError, match="are equal after rounding"):
         press("dry").simulate(float(np.nextafter(0.01, 1.0)), start=final)
-    with pytest.raises(BadValueError, match="no room"):
+    with pytest.raises(BadValueError, match="are equal after rounding"):
         press("dry").simulate(output=[0.01, float(np.nextafter(0.01, 1.0))], start=final)
 
 

@@ -53,7 +53,7 @@ def test_a_state_keeps_the_numbers_of_its_run(options: dict[str, Any], tmp_path:
         rest = pendulum.simulate(output=np.linspace(0.5, 1.0, 6), start=state, **options)
         assert rest.parameters["g"] == 1.62 and rest.final.parameters == {"parameters.g": 1.62}
         np.testing.assert_allclose(rest.q, whole.q[5:], rtol=0, atol=2e-7)
-        assert not [note for note in rest.diagnostics.notes if "goes on" in note]
+        assert not [note for note in rest.diagnostics.notes if "resumed at" in note]
 
 
 @pytest.mark.parametrize("options", METHODS)
@@ -62,7 +62,7 @@ def test_other_numbers_are_taken_and_told(options: dict[str, Any]) -> None:
     state = pendulum.simulate(0.5, output=1, parameters={"g": 1.62}).final
     run = pendulum.simulate(1.0, output=1, start=state, parameters={"parameters.g": "9.81 m/s^2"}, **options)
     assert run.parameters["g"] == 9.81
-    message = "goes on from t = 0.5 s with other numbers: parameters.g 9.81 m/s^2 (before 1.62 m/s^2)"
+    message = "resumed at t = 0.5 s with other parameter values: parameters.g 9.81 m/s^2 (before 1.62 m/s^2)"
     assert message in run.diagnostics.notes
     same = pendulum.simulate(1.0, output=1, start=state, parameters={"g": 1.62}, **options)
     assert not same.diagnostics.notes and same.parameters["g"] == 1.62
@@ -74,11 +74,12 @@ def test_a_state_off_its_constraints_is_told(part: str) -> None:
     pendulum = gudgeon.load("pendulum")
     final = pendulum.simulate(0.5, output=1).final
     off = replace(final, **{part: getattr(final, part) + 0.01})
-    for simulation, used in ((pendulum, "closes the others anew"), (pendulum.full, "begins with it as it stands")):
+    for simulation, used in ((pendulum, "for the others"), (pendulum.full, "begins with this state unchanged")):
         run = simulation.simulate(0.51, output=1, start=off)
         batch = simulation.simulate_many([{}], 0.51, output=1, start=[off])
         for notes in (run.diagnostics.notes, batch[0].diagnostics.notes):
-            assert notes[0].startswith("the state at t = 0.5 s is off the constraints, rows ") and used in notes[0]
+            start = "the state at t = 0.5 s violates constraint equations "
+            assert notes[0].startswith(start) and used in notes[0]
         assert not simulation.simulate(0.51, output=1, start=final).diagnostics.notes
 
 
@@ -95,9 +96,9 @@ def test_numbers_that_the_state_does_not_fit_are_refused(scene: str) -> None:
     """A crank driven by phi + omega t stands elsewhere at the same time with another omega."""
     press = gudgeon.load("nine_bar_press", scene=scene)
     state = press.simulate(0.01, output=1).final
-    with pytest.raises(AssemblyError, match=r"does not fit the numbers given: rows \S+ \(.*rad\)"):
+    with pytest.raises(AssemblyError, match=r"constraint equations with these parameter values: \S+ \(.*rad\)"):
         press.simulate(0.02, output=1, start=state, parameters={"omega": "3*pi rad/s"})
-    with pytest.raises(AssemblyError, match="does not fit the numbers given"):
+    with pytest.raises(AssemblyError, match="violates constraint equations with these parameter values"):
         press.simulate(0.02, output=1, start=state, parameters={"l5": 0.31})
     press.simulate(0.011, output=1, start=state, parameters={"gravity.y": -1.62})
 
@@ -164,7 +165,7 @@ def test_a_state_of_another_mechanism_of_the_same_size(swing: Path) -> None:
 def test_a_state_of_another_version_of_the_file(swing: Path, options: dict[str, Any]) -> None:
     state = gudgeon.load(swing).simulate(0.1, output=1).final
     swing.write_text(FILE.replace("mass: 1 kg", "mass: 2 kg"))
-    with pytest.raises(BadValueError, match="another mechanism: the file of swing was another one"):
+    with pytest.raises(BadValueError, match="another mechanism: the file of swing has changed"):
         gudgeon.load(swing).simulate(0.2, output=1, start=state, **options)
 
 
@@ -254,9 +255,9 @@ def test_many_states_give_the_runs_of_each(name: str, scene: str) -> None:
         ({"q": np.full(9, np.nan)}, r"start\.q\[0\] is nan"),
         ({"v": np.zeros(3)}, r"start\.v has shape \(3,\)"),
         ({"state": np.array([3], np.int8)}, r"start\.state: expected 0"),
-        ({"memory": np.array([0.5])}, r"start\.memory\[0\] of joint .* remembers 0\.5 m/s"),
+        ({"memory": np.array([0.5])}, r"start\.memory\[0\] of joint .* is 0\.5 m/s"),
         ({"mechanism": "pendulum"}, "another mechanism or scene"),
-        ({"t": 0.001}, "the runs of a batch have their times together"),
+        ({"t": 0.001}, "the runs of a batch start at one time"),
     ],
 )
 def test_one_wrong_state_of_many_is_an_error(change: dict[str, Any], message: str) -> None:

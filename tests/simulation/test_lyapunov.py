@@ -227,7 +227,7 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
         gudgeon.load("nine_bar_press").lyapunov(1.0)
     with pytest.raises(BadValueError, match="sticks and slips"):
         gudgeon.load("belt_block").lyapunov(1.0, by="tangent")
-    with pytest.raises(BadValueError, match=r"rtol is 1e-8: a twin[^$]*expected 1e-10 or less"):
+    with pytest.raises(BadValueError, match=r"rtol is 1e-8: errors of steps[^$]*expected 1e-10 or less"):
         duffing.lyapunov(1.0, by="twin", rtol="1e-8")
     with pytest.raises(BadValueError, match="by is"):
         duffing.lyapunov(1.0, by="guess")

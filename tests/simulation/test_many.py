@@ -115,8 +115,8 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
             numbers[first : first + N_IMPACT_COLUMNS] = [float(contact[name]) for name in IMPACT_COLUMN_NAMES]
         return len(own)
 
-    monkeypatch.setattr(stored, "FIRST_BLOCK", 21)
-    monkeypatch.setattr(stored, "BLOCK", 21)
+    monkeypatch.setattr(stored, "FIRST_BLOCK_CONTACTS", 21)
+    monkeypatch.setattr(stored, "BLOCK_CONTACTS", 21)
     lib, pointer = SimpleNamespace(gudgeon_run_impacts=listed), gudgeon.load("bouncing_ball", "damped").compiled.pointer
     fetched = stored.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))
     rng, runs, each = np.random.default_rng(5), Runs.__new__(Runs), [list[np.ndarray]() for _ in range(9)]
@@ -201,7 +201,7 @@ events: {floor: {zero: ball.y, action: stop}}
 MISTAKES: list[tuple[Any, dict[str, Any], str]] = [
     ({"c": [1e-3, 2e-3], "omega": [1.0, 2.0, 3.0]}, {}, "different lengths: c has 2, omega has 3"),
     ({"c": np.zeros((2, 2))}, {}, r"c has shape \(2, 2\)"),
-    ([], {}, "no run"),
+    ([], {}, "at least one run"),
     ([1.0], {}, "a mapping for every run"),
     ({"c": 1e-3}, {"threads": 0}, "threads is 0"),
     ({"c": 1e-3}, {"step": -1.0}, "positive"),

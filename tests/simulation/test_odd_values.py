@@ -427,11 +427,11 @@ def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
 @pytest.mark.parametrize(
     ("code", "rate", "message"),
     [
-        (2, np.nan, r"start.memory\[0\] of joint \w+ is nan while start.state\[0\] is 2: expected the rate"),
+        (2, np.nan, r"start.memory\[0\] of joint \w+ is nan while start.state\[0\] is 2: expected the approach speed"),
         (1, np.nan, "is nan while"),
-        (0, 1.0, r"remembers 1 m/s while start.state\[0\] is 0 \(free\)"),
+        (0, 1.0, r"is 1 m/s while start.state\[0\] is 0 \(free\)"),
         (2, np.inf, "is inf while"),
-        (0, -np.inf, "remembers -inf"),
+        (0, -np.inf, "is -inf m/s while"),
     ],
 )
 def test_a_state_that_contradicts_itself(code: int, rate: float, message: str) -> None:

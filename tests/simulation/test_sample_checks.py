@@ -45,6 +45,6 @@ def test_outputs_that_are_no_numbers_in_blocks(tmp_path: Path, monkeypatch: pyte
     more = "outputs:\n  root: sqrt(0.2 - t/(1 s))\n  residual: log(1 + energy.residual/(1 J))\n"
     file.write_text(text.replace("outputs:\n", more), encoding="utf-8")
     run = check_equal_in_blocks(gudgeon.load(file, "ideal"), monkeypatch, t_end=0.3, output=30)
-    (note,) = [note for note in run.diagnostics.notes if "no number" in note]
-    assert note.startswith("output root is no number (nan) at t = 0.21 s")
-    assert note.endswith("it is none at 10 of 31 samples")
+    (note,) = [note for note in run.diagnostics.notes if "not finite" in note]
+    assert note.startswith("output root is not finite (nan) at t = 0.21 s")
+    assert note.endswith("it is not finite at 10 of 31 samples")

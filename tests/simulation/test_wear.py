@@ -215,7 +215,7 @@ def test_oil_wears_nothing(tmp_path: Path) -> None:
     assert message.used - message.returned + message.friction + message.film == pytest.approx(total, rel=1e-6)
     rubbed = gudgeon.wear(simulation, run, "J", k=1.0, law="reye").journal.volume
     assert message.friction == pytest.approx(rubbed, rel=1e-5)
-    with pytest.raises(BadValueError, match="what its film bears is known where all laws are gudgeon's own"):
+    with pytest.raises(BadValueError, match="the force of its film is not known with user-defined laws"):
         check_joint_can_wear(replace(run.source, laws=(("syrup", "0"),)), "J")
 
 
@@ -297,5 +297,5 @@ def test_what_cannot_be_is_refused(crank: tuple[gudgeon.Simulation, gudgeon.Resu
     for one, other in ((simulation, "run"), ("rig", run)):
         with pytest.raises(BadValueError, match="expected a (Result|Simulation)"):
             gudgeon.wear(one, other, "wristpin", k=1.0)  # type: ignore[arg-type]
-    with pytest.raises(BadValueError, match="whose run it is"):
+    with pytest.raises(BadValueError, match="expected the simulation of the run"):
         gudgeon.wear(gudgeon.load("bouncing_ball", "elastic"), run, "wristpin", k=1.0)

@@ -127,7 +127,7 @@ def test_a_run_in_place_of_a_time(rail: Simulation) -> None:
     run = rail.simulate(5.0, parameters=numbers, output=10, method="dop853")
     one, two = rail.lyapunov(run), rail.lyapunov(5.0, parameters=numbers, method="dop853")
     assert one.exponent == two.exponent and one.t[-1] == 5.0
-    with pytest.raises(InputError, match="its own start"):
+    with pytest.raises(InputError, match="parameters are those of the run"):
         rail.lyapunov(run, parameters=numbers)
     with pytest.raises(InputError, match="expected the simulation"):
         gudgeon.load("pendulum").lyapunov(run)

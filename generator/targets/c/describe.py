@@ -14,6 +14,7 @@ from gudgeon.contract.kernel_source import (
     Condition,
     DriveInfo,
     EventInfo,
+    ExpressionInfo,
     JointInfo,
     KernelSource,
     PartInfo,
@@ -21,7 +22,6 @@ from gudgeon.contract.kernel_source import (
     RowInfo,
     RuntimeParameter,
     SeriesInfo,
-    WrittenInfo,
 )
 from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.contract.stored import format_base_units
@@ -232,7 +232,7 @@ def _select_conditions(model: Model) -> tuple[Condition, ...]:
     )
 
 
-def _describe_file_expressions(model: Model) -> Iterator[WrittenInfo]:
+def _describe_file_expressions(model: Model) -> Iterator[ExpressionInfo]:
     """Yield file expressions that are not run-time parameters, for error messages about their addresses.
 
     These are values of drives, forces and events that depend on time or motion, and numbers that are 0 in the file.
@@ -253,13 +253,13 @@ def _describe_file_expressions(model: Model) -> Iterator[WrittenInfo]:
     yield from map(_describe_file_expression, zeros.values())
 
 
-def _describe_file_expression(quantity: Quantity, expression: Expr | None = None) -> WrittenInfo:
+def _describe_file_expression(quantity: Quantity, expression: Expr | None = None) -> ExpressionInfo:
     """Return a file expression as JSON with its address, line and column.
 
     `expression` replaces the quantity's value; None: the value itself.
     """
     location, expression = quantity.where, expression or quantity.value
-    return WrittenInfo(quantity.address, json.dumps(to_json(expression)), location.line, location.column)
+    return ExpressionInfo(quantity.address, json.dumps(to_json(expression)), location.line, location.column)
 
 
 def _list_parameter_symbols(model: Model) -> list[sp.Symbol]:
@@ -355,7 +355,7 @@ def _evaluate_settings(model: Model) -> dict[str, float]:
     }
 
 
-def _describe_settings(model: Model) -> Iterator[WrittenInfo]:
+def _describe_settings(model: Model) -> Iterator[ExpressionInfo]:
     """Yield the scene's t_end, output and step whose expressions contain parameters; plain numbers are left out."""
     for quantity in model.scene.simulate.values():
         if next(iterate_names(quantity.value), None) is not None:

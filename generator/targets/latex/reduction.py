@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.reduction_description import describe_reduced_system, describe_reduction_steps
 from gudgeon.contract.reduction_log import Solve
-from gudgeon.contract.reduction_words import describe_reduced_system, describe_reduction_steps
 from gudgeon.generator.targets.c.readme import list_file_purposes
 from gudgeon.generator.targets.latex.document import (
     Block,

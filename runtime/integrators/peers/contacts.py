@@ -30,9 +30,8 @@ from gudgeon.contract.boundary import (
 from gudgeon.model.compiled import Array, CompiledModel
 
 NODES = np.linspace(0.0, 1.0, 9)  # fractions of a step at which it is sampled
-EVENT_TIME_TOL = (
-    0.5e-12  # tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
-)
+# tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
+EVENT_TIME_TOL = 0.5e-12
 MIN_PEAK_FRACTION = 0.9  # fraction of the known peak from which on a step's own peak is refined
 LOST_TOL = 1e-3  # of c: a free journal further outside its bearing was lost
 ROUNDING_TOL = 1e-7  # of the bearing's radius, in addition
@@ -81,7 +80,7 @@ class Contacts:
         self.floor = _find_velocity_floor(compiled, p)
         self.discrete_states = np.array(discrete_states[: self.count], dtype=np.float64)
         self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == CODE_IMPACT
-        self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force and its time of the present contact
+        self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force and its time of the current contact
         self.impacts: list[tuple[int, float, float, float, float, float]] = []
         self.peaks = np.zeros((self.count, N_PEAK))
         self.peaks[:, PEAK_e_max] = -np.inf
@@ -100,8 +99,9 @@ class Contacts:
         return np.where(self.closed, touching, CODE_FREE).astype(np.int8)
 
     def evaluate_quantities(self, t: Array, y: Array) -> ContactQuantities:
-        """Evaluate the quantities of joints with play at times t (N,) and states y (N, 2n or more), for the present
-        contacts.
+        """Return the quantities of joints with play at times t (N,) and states y (N, 2n or more).
+
+        The contacts are those of `discrete_states`.
         """
         n = self.compiled.n
         discrete_states = np.broadcast_to(self.discrete_states, (len(t), self.count))
@@ -112,7 +112,7 @@ class Contacts:
         )
 
     def close_initial_contacts(self, t: float, y: Array, compute_onset_speeds: Callable[[], Array]) -> None:
-        """Close the contacts that the start y lies in, and resume those that are closed already.
+        """Close open contacts with δ ≥ 0 at the start y, and let contacts that are closed already begin at t (s).
 
         `compute_onset_speeds` returns the approach speeds δ̇⁻ (n_memory,) of the former; it is called only if there are
         any.
@@ -125,8 +125,9 @@ class Contacts:
             self._close_contact(k, t, float(onset_speeds[k]))
 
     def switch_contacts(self, t: float, y: Array, joint: int) -> None:
-        """Switch a joint, given by index, between free and contact at t (s); also all joints past their switching
-        point.
+        """Switch a joint, given by index, between free and contact at t (s).
+
+        Other joints whose gap has changed sign and moves further are switched too.
         """
         now = self.evaluate_quantities(np.array([t]), y[None])
         sign = np.where(self.closed, 1.0, -1.0)
@@ -139,9 +140,7 @@ class Contacts:
                 self._close_contact(int(k), t, float(now.deltadot[0, k]))
 
     def _close_contact(self, k: int, t: float, deltadot: float) -> None:
-        """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s), or the smallest allowed
-        one.
-        """
+        """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s) or the velocity floor."""
         self.discrete_states[k] = max(deltadot, self.floor)
         self.compressing[k] = True
         self.onsets += 1
@@ -161,7 +160,7 @@ class Contacts:
             self.peaks[k, PEAK_e_max] = max(self.peaks[k, PEAK_e_max], quantities.e[:, k].max())
 
     def _update_peak(self, k: int, t: float, F: float) -> None:
-        """Update the largest force of joint k, and of its present contact, by F (N) at t (s)."""
+        """Update the largest force of joint k, and of its current contact, by F (N) at t (s)."""
         if self.peaks[k, PEAK_F] < F:
             self.peaks[k, [PEAK_F, PEAK_t]] = F, t
         if self.closed[k] and self.open[k][1] < F:
@@ -170,7 +169,7 @@ class Contacts:
     def update_contacts(self, t: float, y: Array) -> int | None:
         """Update velocity ratios, phases and peaks at an accepted state y at t (s); return the index of a lost contact.
 
-        A contact is lost if a joint that counts as free lies clearly beyond its wall. Return None without one.
+        A contact is lost if a free joint penetrates by more than LOST_TOL of its clearance. Return None without one.
         """
         now = self.evaluate_quantities(np.array([t]), y[None])
         self.update_peaks(np.array([t]), now)
@@ -183,10 +182,9 @@ class Contacts:
         return int(lost[0]) if len(lost) else None
 
     def refine_peaks(self, step: AcceptedStep, t: Array, quantities: ContactQuantities) -> None:
-        """Refine the largest forces inside a step by minimisation, from the samples `quantities` at times t before the
-        step's end.
+        """Refine the largest forces inside a step by minimization, from the samples `quantities` at times t (N,).
 
-        Joints whose samples are well below their known peak are skipped.
+        Joints whose samples are below MIN_PEAK_FRACTION of their known peak are skipped.
         """
         from scipy.optimize import minimize_scalar
 
@@ -235,22 +233,21 @@ class Contacts:
         """
         for i in range(1, len(t)):
             low, high = float(t[i - 1]), float(t[i])
-            if event_function[i - 1] < 0.0:  # begun on the wrong side: over, unless it is coming back
+            if event_function[i - 1] < 0.0:  # negative already: an event, unless the function rises
                 if event_function[i] < 0.0 and rate[i] < 0.0:
                     return low
                 continue
             if event_function[i] >= 0.0:
                 if not rate[i - 1] < 0.0 < rate[i]:
                     continue
-                high = self._locate_zero(step, k, low, high, is_rate=True) or high  # where the margin is least
+                high = self._locate_zero(step, k, low, high, is_rate=True) or high  # minimum of the event function
             zero_time = self._locate_zero(step, k, low, high)
             if zero_time is not None:
                 return zero_time
         return None
 
     def _locate_zero(self, step: AcceptedStep, k: int, low: float, high: float, is_rate: bool = False) -> float | None:
-        """Return the time (s) from low to high at which the event function of joint k becomes negative, by Brent's
-        method.
+        """Return the time (s) in [low, high] at which joint k's event function becomes negative, by Brent's method.
 
         With `is_rate`, it is the time at which its rate becomes positive. States are projected. Return None without
         one.
@@ -266,13 +263,13 @@ class Contacts:
         at_low, at_high = evaluate_event_function(low), evaluate_event_function(high)
         if is_rate and not at_low < 0.0 < at_high or not is_rate and at_high >= 0.0:
             return None
-        if not is_rate and at_low < 0.0:  # by less than what projection moves
+        if not is_rate and at_low < 0.0:  # negative by the projection of the state
             return low
         time_tolerance = max(EVENT_TIME_TOL * (high - low), 2.0 * np.spacing(abs(high)))
         return float(brentq(evaluate_event_function, low, high, xtol=time_tolerance, rtol=1e-15))
 
 
 def _find_velocity_floor(compiled: CompiledModel, p: Array) -> float:
-    """Return the smallest δ̇⁻ (m/s) that an onset stores: the smallest of the scene's contacts, which rarely differ."""
+    """Return the smallest approach speed δ̇⁻ (m/s) that an onset stores: the smallest `velocity_floor` of the scene."""
     slots = enumerate(compiled.source.slots)
     return min((float(p[k]) for k, slot in slots if slot.address.endswith(".velocity_floor")), default=0.0)

@@ -34,21 +34,21 @@ from gudgeon.model.compiled import Array
 
 SUNDIALS = ("sundials:cvode", "sundials:cvode_adams")
 NAMES = SCIPY + SUNDIALS
-UNCONTROLLED = 1e20  # tolerance of the works, which do not act on the motion
-MAX_STUCK = 200  # largest number of successive events at one time
-GROWN = 2.0  # growth of the speed after which the tolerances are set anew
+WORK_TOL = 1e20  # tolerance of the works, which do not act on the motion
+MAX_EVENTS_AT_ONE_TIME = 200  # largest number of successive events at one time
+MAX_SPEED_GROWTH = 2.0  # growth of the speed after which the solver restarts with new tolerances
 
 
 def explain_unsupported_scene(source: KernelSource) -> str:
     """Return the reason why the reference solvers cannot integrate a scene; "" if they can."""
     if source.degrees_of_freedom == 0:
-        return "nothing is integrated"
+        return "the scene has no degrees of freedom to integrate"
     if source.frictions:
         elements = ", ".join(source.frictions)
         return f"dry_friction elements ({elements}) switch between stick and slip in the C methods only"
     if source.rate_jumps:
-        jumps = f"where the rate of {', '.join(source.rate_jumps)} jumps the linkage follows by an impulse"
-        return f"{jumps}, which the adaptive methods in C give it"
+        jumps = f"a jump of the rate of {', '.join(source.rate_jumps)} needs an impulse"
+        return f"{jumps}, which only the adaptive methods in C compute"
     return ""
 
 
@@ -65,11 +65,11 @@ def integrate_by_reference_solver(problem: Problem) -> Trajectory:
     stopping = [event.name for event in problem.compiled.source.events if event.action == "stop"]
     if stopping and problem.stop:
         raise BadValueError(
-            f"method {problem.method!r}: events ({', '.join(stopping)}) are watched by the methods in C only",
+            f"method {problem.method!r}: only the methods in C locate events ({', '.join(stopping)})",
             hint="use auto, dop853, rodas5p or rk4, or simulate(…, stop=False)",
         )
     if math.isfinite(problem.step):
-        raise BadValueError(f"method {problem.method!r} chooses its step", hint="give rtol, or leave out step")
+        raise BadValueError(f"method {problem.method!r} controls its step", hint="give rtol, or leave out step")
     return _Driver(problem).integrate()
 
 
@@ -90,7 +90,7 @@ def _make_stepper(equations: Equations, problem: Problem) -> Stepper:
 
 
 class _Driver:
-    """Hold one run: the present state and the samples so far."""
+    """Hold one run by a reference solver: the current state and the samples so far."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.n = problem, problem.compiled.n
@@ -133,14 +133,17 @@ class _Driver:
         return self._build_trajectory(interrupted, stopped)
 
     def _store_last_sample(self) -> None:
-        """Store the present state as the last sample, after Ctrl-C; samples at its time or later are removed."""
+        """Store the current state as the last sample, after Ctrl-C; samples at its time or later are removed."""
         while self.times and self.times[-1] >= self.t:
             self.times.pop()
             self.samples.pop()
         self._store_sample(self.t, self.y)
 
     def _compute_approach_speeds(self) -> Array:
-        """Return δ̇⁻ (n_memory,) of contacts that the run begins in, from the C loop; this is not cross-checked."""
+        """Return the approach speeds δ̇⁻ (n_memory,) of contacts that are closed at the start.
+
+        They come from a run in C to the start, and are not cross-checked.
+        """
         start = replace(self.problem, method="rk4", t=self.problem.t[:1], step=1.0, progress=None)
         return np.asarray(integrate_problem(start).memory[0])
 
@@ -148,7 +151,7 @@ class _Driver:
         """Set the contacts of the start, and store it if it is a sample."""
         self.contacts.close_initial_contacts(self.t, self.y, self._compute_approach_speeds)
         self._update_state()
-        self._store_present_sample()
+        self._store_sample_at_current_time()
 
     def _compute_absolute_tolerances(self) -> Array:
         """Return the absolute tolerances (2n + 3,) for the largest speeds so far.
@@ -157,10 +160,10 @@ class _Driver:
         """
         self.speed_of_tolerances = self.speed.copy()
         speed = (self.speed + self.speed_floor)[self.angle.astype(int)]
-        return np.concatenate([self.scale[: self.n], self.scale[self.n :] * speed, np.full(N_WORK, UNCONTROLLED)])
+        return np.concatenate([self.scale[: self.n], self.scale[self.n :] * speed, np.full(N_WORK, WORK_TOL)])
 
     def _restart_solver(self) -> None:
-        """Restart the solver at the present state with new tolerances."""
+        """Restart the solver at the current state with new tolerances."""
         self.atol = self._compute_absolute_tolerances()
         self.stepper.restart(self.t, self.y, self.atol)
 
@@ -177,7 +180,7 @@ class _Driver:
         end = self.stepper.interpolate(t1)
         if not np.isfinite(end).all():
             raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
-        event = self._find_event(step)
+        event = self._locate_event_and_refine_peaks(step)
         t_new = t1 if event is None else event[0]
         self._store_samples_before(step, t_new)
         self._pass_step_to_observer(step, t_new)
@@ -187,12 +190,12 @@ class _Driver:
         self.steps += 1
         self._update_state()
         if event is not None:
-            if self.n_events_at_one_time > MAX_STUCK:
+            if self.n_events_at_one_time > MAX_EVENTS_AT_ONE_TIME:
                 raise SolverError(f"contacts change without end near t = {t_new:.9g} s", t_new)
             self.contacts.switch_contacts(t_new, y, event[1])
             self.is_after_change = True
         self._continue_solver(event is not None, end)
-        self._store_present_sample()
+        self._store_sample_at_current_time()
         if self.problem.progress:
             t = self.problem.t
             self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
@@ -212,8 +215,8 @@ class _Driver:
             )
         self.is_after_change = False
 
-    def _find_event(self, step: AcceptedStep) -> tuple[float, int] | None:
-        """Return time (s) and joint of the contact event that ends the step, or None; refine force peaks before it."""
+    def _locate_event_and_refine_peaks(self, step: AcceptedStep) -> tuple[float, int] | None:
+        """Return time (s) and joint of the first contact event in the step, or None; refine force peaks before it."""
         if not self.contacts.count:
             return None
         t = step.compute_sample_times()
@@ -237,17 +240,18 @@ class _Driver:
         lost = self.contacts.update_contacts(self.t, self.y) if self.contacts.count else None
         if lost is not None:
             name = self.problem.compiled.source.clearances[lost].name
-            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, free, is beyond its wall", self.t)
+            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, open, is inside its wall", self.t)
 
     def _continue_solver(self, is_event: bool, solver_state: Array) -> None:
-        """Restart the solver after an event or a growth of speed; else move it onto the constraints if it is far off.
+        """Restart the solver after an event or a growth of speed, or move it onto the constraints.
 
-        `solver_state`: the solver's state at the end of the step. At the end of the run nothing is done.
+        It is moved if its state at the end of the step, `solver_state`, is further from the projected state than its
+        `max_distance`. At the end of the run nothing is done.
         """
         if self.t >= self.problem.t[-1]:
             return
         distance = float((np.abs(self.y - solver_state) / self.atol).max())
-        if is_event or (self.speed > GROWN * (self.speed_of_tolerances + self.speed_floor)).any():
+        if is_event or (self.speed > MAX_SPEED_GROWTH * (self.speed_of_tolerances + self.speed_floor)).any():
             self._restart_solver()
         elif distance > self.stepper.max_distance:
             self.stepper.set_state(self.t, self.y, self.atol)
@@ -260,8 +264,8 @@ class _Driver:
                 float(times[len(self.samples)]), step.evaluate_projected(float(times[len(self.samples)]))
             )
 
-    def _store_present_sample(self) -> None:
-        """Store the present state if it is a sample."""
+    def _store_sample_at_current_time(self) -> None:
+        """Store the current state if the next output time has been reached."""
         if len(self.samples) < len(self.problem.t) and self.problem.t[len(self.samples)] <= self.t:
             self._store_sample(self.t, self.y)
 
@@ -277,13 +281,13 @@ class _Driver:
     def _build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """Return the samples and counts as a Trajectory; contacts that are still closed are added to the list.
 
-        Without samples, the present state becomes one.
+        Waiting steps are passed to the observer. Without samples, the current state becomes one.
         """
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         contacts, equations, n = self.contacts, self.equations, self.n
-        self.step_collector.pass_steps()
-        if not self.samples:  # the start at least
+        self.step_collector.flush_states()
+        if not self.samples:  # the start becomes the only sample
             self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.discrete_states.copy(), contacts.codes))
         count = len(self.samples)

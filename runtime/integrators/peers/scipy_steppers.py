@@ -17,9 +17,8 @@ from gudgeon.model.compiled import Array
 
 ONE_STEP = ("DOP853", "RK45", "Radau")
 EXPLICIT = ("DOP853", "RK45")
-# of SciPy's rtol · |y|, which our tolerances have no place for: the least that it takes without a warning
 # smallest rtol (times |y|) that SciPy accepts without a warning; gudgeon's tolerances are absolute
-RELATIVE = 100.0 * np.finfo(float).eps
+MIN_RTOL = 100.0 * np.finfo(float).eps
 
 
 class ScipyStepper(Stepper):
@@ -30,7 +29,7 @@ class ScipyStepper(Stepper):
         from scipy import integrate
 
         self.name, self.solver_class = name, getattr(integrate, name)
-        self.max_distance = 1e-3 if name in ONE_STEP else 10.0  # to move a method of several steps is to begin anew
+        self.max_distance = 1e-3 if name in ONE_STEP else 10.0  # moving a multistep method restarts it
         self.solver: Any = None
         self.dense: Any = None
 
@@ -42,7 +41,7 @@ class ScipyStepper(Stepper):
         """
         mean = 1.0 if self.name == "LSODA" else math.sqrt(len(y))
         options = {} if self.name in EXPLICIT else {"jac": self.equations.jacobian}
-        tolerances = {"rtol": RELATIVE, "atol": atol / mean}
+        tolerances = {"rtol": MIN_RTOL, "atol": atol / mean}
         self.solver = self.solver_class(self.equations.compute_rates, t, y.copy(), self.t_end, **tolerances, **options)
 
     def step(self) -> float:

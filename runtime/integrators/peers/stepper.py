@@ -1,4 +1,4 @@
-"""Define the interface of reference solvers: the equations they are given, and the steps they must make."""
+"""Define the interface of reference solvers: their right-hand side with Jacobian, and single steps."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SCIPY = ("scipy:DOP853", "scipy:RK45", "scipy:Radau", "scipy:BDF", "scipy:LSODA"
 
 
 class Equations:
-    """Evaluate ẏ = f(t, y) with y = (q, q̇, works), (2n + 3,), for the present contacts, and count the calls."""
+    """Evaluate ẏ = f(t, y) with y = (q, q̇, works), (2n + 3,), for the current contacts, and count the calls."""
 
     def __init__(self, problem: Problem, contacts: Contacts) -> None:
         self.compiled, self.contacts = problem.compiled, contacts
@@ -28,7 +28,7 @@ class Equations:
         self.failure: SolverError | None = None  # error of a call inside the solver, which may swallow it
         self.poll_cancellation = (
             problem.poll_cancellation if problem.method in SCIPY else None
-        )  # Ctrl-C: through C of others no exception goes
+        )  # SUNDIALS is C code, through which no exception passes
         exact = hasattr(self.compiled.lib, "gudgeon_jacobian")
         self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 

@@ -16,13 +16,13 @@ from gudgeon.model.compiled import Array
 
 METHODS = {"cvode": "BDF", "cvode_adams": "Adams"}
 INSTALL = "make peers in a clone, else pip install scikit-sundae"
-RELATIVE = 1e-15  # rtol (times |y|); gudgeon's tolerances are absolute
+MIN_RTOL = 1e-15  # rtol (times |y|); gudgeon's tolerances are absolute
 
 
 class CvodeStepper(Stepper):
     """Run the method `name` of CVODE: cvode or cvode_adams."""
 
-    max_distance = 10.0  # tolerances: to move a method of several steps is to begin anew
+    max_distance = 10.0  # tolerances; moving a multistep method restarts it
 
     def __init__(self, equations: Equations, t_end: float, name: str) -> None:
         super().__init__(equations, t_end)
@@ -37,7 +37,7 @@ class CvodeStepper(Stepper):
         CVODE controls the root mean square over all components. The tolerances are divided accordingly, so that no
         component exceeds its own.
         """
-        options: dict[str, Any] = {"method": self.kind, "rtol": RELATIVE, "atol": atol / math.sqrt(len(y))}
+        options: dict[str, Any] = {"method": self.kind, "rtol": MIN_RTOL, "atol": atol / math.sqrt(len(y))}
         if self.equations.jacobian is not None:
             options["jacfn"] = self._jacobian
         self.solver = self.cvode(self._compute_rates, max_num_steps=10**6, **options)

@@ -109,7 +109,7 @@ def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[s
     A force has its components in ground axes (N), a torque its value and 0 (N·m). Used for drawings without a run.
     """
     from gudgeon.language.tree import evaluate, from_json
-    from gudgeon.model.written import make_value_function
+    from gudgeon.model.file_expressions import make_value_function
 
     expressions = {entry.address: entry.tree for entry in source.written}
     parameters = {parameter.address: float(x) for parameter, x in zip(source.slots, p, strict=False)}

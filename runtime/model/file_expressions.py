@@ -1,7 +1,8 @@
-"""Explain why an expression of the file is NaN at a state of a run: find the part of it that is undefined.
+"""Evaluate expressions of the file at states of a run, and explain why one is NaN: find its undefined part.
 
-It finds the smallest undefined part of an expression, forces without a finite slope (which methods with a Jacobian
-need) and drives without a bounded second rate. Numbers of a run are also checked as the file writes them: C simplifies.
+This module finds the smallest undefined part of an expression, forces without a finite slope (which methods with a
+Jacobian need) and drives without a bounded second rate. Expressions of parameters are also checked in the form of the
+file, because the compiled form is simplified.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
+from gudgeon.contract.kernel_source import ExpressionInfo, KernelSource
 from gudgeon.language.tree import (
     Binary,
     Call,
@@ -38,13 +39,17 @@ from gudgeon.model.compiled import Array, CompiledModel
 if TYPE_CHECKING:
     pass
 
-_REACH = tuple(10.0**k for k in range(-13, -8))  # s, or of the time: how far after a state a reason is searched
+_SEARCH_OFFSETS = tuple(
+    10.0**k for k in range(-13, -8)
+)  # s, or fractions of the time: offsets after a state at which a reason is searched
 MAX_SWITCHING_POINTS = 64  # largest number of switching points of a where that are examined
 DEFINED_EVERYWHERE = ("force", "torque", "rotational_spring_damper")  # force elements with finite values
 Values = Callable[[str], float]  # function that returns the value of a name
-_SHORT = (1e-8, 1e-10, 1e-12)  # distances over which a rise is measured, for a size of 1
-_STEEPER, _ROUNDING = 3.0, 1e-13  # smallest growth of the slope per shorter distance; largest rise that is rounding
-_JUMP = 0.9  # of the rise over the longest distance: if the shortest has more, it is a jump, which methods handle
+_DISTANCES = (1e-8, 1e-10, 1e-12)  # distances over which a difference is measured, for a size of 1
+# smallest growth of an unbounded slope per shorter distance; largest difference that is rounding
+_MIN_SLOPE_GROWTH, _ROUNDING_TOL = 3.0, 1e-13
+# of the difference over the longest distance: if the shortest one has more, it is a jump, which methods handle
+_MIN_JUMP_FRACTION = 0.9
 REMEDY = "expected finite numbers: is there a division by zero, or a root of a negative number?"
 
 
@@ -89,16 +94,16 @@ def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> A
 
 
 @cache_by_values
-def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
-    """Return the file's expressions of t and motion in some sections (drives, forces, events), with their trees."""
+def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[ExpressionInfo, Expr]]:
+    """Return the expressions of t and motion in sections `kinds` of the file (drives, forces, events), with trees."""
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
 
 
 def may_powers_be_undefined(source: KernelSource) -> bool:
     """Return whether a drive or force of a scene, and thus its power, may be undefined at some time or position.
 
-    That is so for an expression with other functions than those of every number, and for an element along a line
-    between two points, whose direction is undefined where both coincide.
+    It may with functions that are not defined for all numbers, and with parameters that are expressions. It may too
+    with force elements along a line between two points, whose direction is undefined where both coincide.
     """
     trees = [tree for _, tree in read_expression_trees(source, ("drives", "forces"))]
     has_line = any(part.section == "forces" and part.kind not in DEFINED_EVERYWHERE for part in source.parts)
@@ -117,10 +122,13 @@ def explain_undefined_value_after(
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         expressions = [x for x in expressions if all("." not in name.path for name in iterate_names(x[1]))]
     scale = max(1.0, abs(t))
-    times_after = (*(scale * dt for dt in _REACH), *(duration * fraction for fraction in (0.01, 0.1, 0.5, 1.0)))
+    times_after = (
+        *(scale * dt for dt in _SEARCH_OFFSETS),
+        *(duration * fraction for fraction in (0.01, 0.1, 0.5, 1.0)),
+    )
     for h in (0.0, *times_after):
         with np.errstate(invalid="ignore"):  # a velocity may be infinite
-            message = _explain_undefined_at(source, expressions, p, t + h, q + h * v, v)
+            message = _explain_undefined_expression(source, expressions, p, t + h, q + h * v, v)
         if message:
             return message
     return ""
@@ -136,7 +144,7 @@ def explain_undefined_value_near(
     """
     expressions = read_expression_trees(source, ("drives", "forces"))
     for h in (0.0, float(np.spacing(t))):
-        if message := _explain_undefined_at(source, expressions, p, t + h, q, v):
+        if message := _explain_undefined_expression(source, expressions, p, t + h, q, v):
             return message
     search_range = max(duration, 1e-6 * max(1.0, abs(t)))
     for info, tree in expressions:
@@ -158,11 +166,11 @@ def explain_undefined_value_near(
 
 
 def find_undefined_value_at_switch(
-    source: KernelSource, p: Array, info: WrittenInfo, tree: Expr, t: Array
+    source: KernelSource, p: Array, info: ExpressionInfo, tree: Expr, t: Array
 ) -> tuple[str, float] | None:
-    """Return (message, time) for a drive that is not a number where one of its wheres switches.
+    """Return (message, time) for a drive that is not a number at the switching point of a `where`; None if it is one.
 
-    None if it always is one. t (N,): rising times between which the earliest such time is searched.
+    t (N,): increasing times between which the earliest such time is searched.
     """
     empty, messages_and_times = np.zeros(0), []
     for call in iterate_calls(tree, "where"):
@@ -184,9 +192,9 @@ def find_undefined_value_at_switch(
 
 
 def _bisect_switching_point(predicate: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
-    """Return two adjacent numbers from `low` to `high` between which a predicate changes, by bisection.
+    """Return two adjacent numbers in [low, high] between which a predicate changes, by bisection.
 
-    predicate: a function with different values at `low` and `high`. The search stops at a distance of 1e-18.
+    The predicate must have different values at `low` and `high`. The search also stops at a distance of 1e-18.
     """
     value_at_low = predicate(low)
     while low < (middle := 0.5 * (low + high)) < high and high - low > 1e-18:
@@ -195,7 +203,7 @@ def _bisect_switching_point(predicate: Callable[[float], bool], low: float, high
 
 
 def _explain_undefined_branch(
-    source: KernelSource, p: Array, info: WrittenInfo, call: Call, t: float, q: Array, v: Array
+    source: KernelSource, p: Array, info: ExpressionInfo, call: Call, t: float, q: Array, v: Array
 ) -> str:
     """Return a text on an active branch of a where that is not a number, at its switching point; else "".
 
@@ -206,7 +214,7 @@ def _explain_undefined_branch(
     for k, (value, is_active) in enumerate(((first_branch, left <= right), (second_branch, left >= right))):
         if is_active and not math.isfinite(value):
             explanation = explain_nonfinite_part(source, call.arguments[2 + k], values)
-            location = f"(line {info.line}, column {info.column}): at t = {t:.9g} s, where its where changes over"
+            location = f"(line {info.line}, column {info.column}): at t = {t:.9g} s, a switching point of its where"
             return f"{info.address} {location}, a branch is {value}: {explanation}"
     return ""
 
@@ -228,14 +236,14 @@ def explain_undefined_value_between(source: KernelSource, p: Array, t0: float, t
             is_finite = np.isfinite(evaluate_at_times(source, p, tree, np.array([middle])))[0]
             low, high = (middle, high) if is_finite else (low, middle)
         if not message or high < first_time:
-            first_time, message = high, _explain_undefined_at(source, [(info, tree)], p, high, empty, empty)
+            first_time, message = high, _explain_undefined_expression(source, [(info, tree)], p, high, empty, empty)
     return message, first_time
 
 
 def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tuple[str, float]:
     """Return which drive's rate or second rate is not a number first, and when; ("", last time) if all are numbers.
 
-    times: rising times (s) that are examined; q (n,): a position at which the constraint equations are evaluated.
+    times: increasing times (s) that are examined; q (n,): a position at which the constraint equations are evaluated.
     """
     drives = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive"]
     v = np.zeros(compiled.n)
@@ -247,10 +255,13 @@ def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: A
     return "", float(times[-1])
 
 
-def _explain_undefined_at(
-    source: KernelSource, expressions: Iterable[tuple[WrittenInfo, Expr]], p: Array, t: float, q: Array, v: Array
+def _explain_undefined_expression(
+    source: KernelSource, expressions: Iterable[tuple[ExpressionInfo, Expr]], p: Array, t: float, q: Array, v: Array
 ) -> str:
-    """Return a message on the first of some expressions that is not a number at a state; "" if all are numbers."""
+    """Return a message on the first of the expressions that is not finite at t, q, v; "" if all are finite.
+
+    An example: "forces.push.value.x (line 7, column 12) is not finite at t = 0.3 s, nan: sqrt of -0.01".
+    """
     values = make_value_function(source, p, t, q, v)
     for info, tree in expressions:
         value = float(evaluate(tree, values))
@@ -273,13 +284,13 @@ def explain_nonfinite_part(source: KernelSource, tree: Expr, values: Values) -> 
     return location + _describe_part(path[-1], values)
 
 
-def _expand_named_expressions(source: KernelSource) -> list[tuple[WrittenInfo, Expr]]:
-    """Return the file's named expressions with the trees of others in place of their names."""
+def _expand_named_expressions(source: KernelSource) -> list[tuple[ExpressionInfo, Expr]]:
+    """Return the file's named expressions, with the names of others replaced by their trees."""
     trees_by_name = {info.address.partition(".")[2]: from_json(json.loads(info.tree)) for info in source.expressions}
     expanded_trees: dict[str, Expr] = {}
 
     def expand_tree(name: str) -> Expr:
-        """Return the tree of a named expression with all others put in."""
+        """Return the tree of a named expression with the names of others replaced by their trees."""
         if name not in expanded_trees:
             used = {used.path for used in iterate_names(trees_by_name[name])} & trees_by_name.keys()
             expanded_trees[name] = replace_names(trees_by_name[name], {other: expand_tree(other) for other in used})
@@ -329,7 +340,7 @@ def _describe_part(tree: Expr, values: Values) -> str:
 
 
 def find_unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
-    """Return the drive whose second rate is more than 100 times as large at a time as near it; "" if there is none."""
+    """Return the drive whose second rate at t (s) is over 100 times that nearby, and thus unbounded; "" if none is."""
     zero = np.zeros(compiled.n)
     distance = 1e-4 * max(abs(t), 1e-9)
     times_t = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
@@ -367,19 +378,21 @@ def _is_steep(function: Callable[[float], float], point: float) -> bool:
     """
     value, size = function(point), 1.0 + abs(point)
     for signed_size in (-size, size):
-        differences = [abs(function(point + signed_size * distance) - value) for distance in _SHORT]
+        differences = [abs(function(point + signed_size * distance) - value) for distance in _DISTANCES]
         if not all(map(math.isfinite, differences)):
             return math.isfinite(value)
-        slopes = [difference / distance for difference, distance in zip(differences, _SHORT, strict=True)]
-        is_growing = all(next_slope > _STEEPER * slope for slope, next_slope in zip(slopes, slopes[1:], strict=False))
-        if is_growing and _ROUNDING * abs(value) < differences[-1] < _JUMP * differences[0]:
+        slopes = [difference / distance for difference, distance in zip(differences, _DISTANCES, strict=True)]
+        is_growing = all(
+            next_slope > _MIN_SLOPE_GROWTH * slope for slope, next_slope in zip(slopes, slopes[1:], strict=False)
+        )
+        if is_growing and _ROUNDING_TOL * abs(value) < differences[-1] < _MIN_JUMP_FRACTION * differences[0]:
             return True
     return False
 
 
 @dataclass(frozen=True)
 class PartialExpression:
-    """Hold an expression that may be undefined: its own parameter index (−1: none) and those of its names."""
+    """Hold an expression that may be undefined; `slot`: index of the parameter that it defines (−1: none)."""
 
     address: str
     tree: Expr

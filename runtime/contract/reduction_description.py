@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from gudgeon.contract import reduction_log as message
+from gudgeon.contract import reduction_log
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.contract.reduction_log import ReductionLog, Solve, Step
@@ -15,12 +15,12 @@ MAX_NAMES = 16  # largest number of names that are listed in full
 def describe_reduction_steps(source: KernelSource) -> Iterator[tuple[int, int, str]]:
     """Yield for each reduction step the numbers of coordinates and equations that remain, and its description.
 
-    The first item is that of all bodies before the reduction.
+    The first item describes the system of all bodies before the reduction.
     """
     log = source.story
-    yield len(log.coordinates), len(log.rows), "every body by x, y and its angle; every joint closed"
+    yield len(log.coordinates), len(log.rows), "x, y and angle of every body; no joint has play"
     for step, n, m in log.iterate_steps():
-        yield n, m, _WORDS[step.kind](step)
+        yield n, m, _DESCRIPTIONS[step.kind](step)
 
 
 def describe_reduced_system(source: KernelSource) -> Iterator[tuple[str, str]]:
@@ -37,13 +37,16 @@ def describe_reduced_system(source: KernelSource) -> Iterator[tuple[str, str]]:
     )
     if is_reduced:
         noun_phrase = "rows that stay" if len(source.closures) > 1 else "the row that stays"
-        yield "closures", f"{format_names(source.closures)}: {noun_phrase}" if source.closures else "none: no row stays"
+        yield (
+            "closures",
+            f"{abbreviate_names(source.closures)}: {noun_phrase}" if source.closures else "none: no row stays",
+        )
     yield "solved", _format_linear_systems(log, is_reduced)
     yield "operations", _format_operations(source)
 
 
-def format_names(names: Sequence[str]) -> str:
-    """Return names as "a, b, c"; of more than MAX_NAMES names the first ones, and how many there are in all."""
+def abbreviate_names(names: Sequence[str]) -> str:
+    """Return names as "a, b, c"; more than MAX_NAMES names are abbreviated: "a, b, …, l, … (20 in all)"."""
     if len(names) <= MAX_NAMES:
         return ", ".join(names)
     return f"{', '.join(names[: MAX_NAMES - 4])}, … ({len(names)} in all)"
@@ -60,19 +63,19 @@ def _get_verb_ending(names: Sequence[str]) -> str:
 
 
 def _list_bodies(names: Iterable[str]) -> str:
-    """Return the bodies of coordinates, each once: "L1, L4" for "L1.theta", "L4.theta"."""
-    return format_names(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
+    """Return the bodies of coordinates as text, each once: "L1, L4" for "L1.theta", "L4.theta"."""
+    return abbreviate_names(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
 
 
 def _describe_joints_with_play(step: Step) -> str:
     """Describe the step that opens joints with play."""
     verb = "has" if len(step.owners) == 1 else "have"
-    return f"{format_names(step.owners)} {verb} play: a force law instead of rows, and no joint of the tree"
+    return f"{abbreviate_names(step.owners)} {verb} play: a force law, no rows, and no joint of the tree"
 
 
 def _describe_redundant_equations(step: Step) -> str:
     """Describe the step that leaves out redundant equations."""
-    return f"{format_names(step.rows_gone)} say{_get_verb_ending(step.rows_gone)} nothing new: left out"
+    return f"{abbreviate_names(step.rows_gone)} {'is' if len(step.rows_gone) == 1 else 'are'} redundant: left out"
 
 
 def _format_removed_coordinates(step: Step, coordinate_kind: str) -> str:
@@ -83,19 +86,19 @@ def _format_removed_coordinates(step: Step, coordinate_kind: str) -> str:
 def _describe_dependent_coordinates(step: Step, coordinate_kind: str) -> str:
     """Describe a step in which coordinates of one kind, "angle" or "slide", follow from those of its owners."""
     subject = _format_removed_coordinates(step, coordinate_kind)
-    return f"{subject} follow{_get_verb_ending(step.gone)} {format_names(step.owners)}"
+    return f"{subject} follow{_get_verb_ending(step.gone)} {abbreviate_names(step.owners)}"
 
 
 def _describe_prescribed_angles(step: Step) -> str:
     """Describe the step in which drives prescribe angles."""
-    subject = f"{format_names(step.owners)} prescribe{_get_verb_ending(step.owners)}"
+    subject = f"{abbreviate_names(step.owners)} prescribe{_get_verb_ending(step.owners)}"
     return f"{subject} {_format_removed_coordinates(step, 'angle')}: known at any time, not integrated"
 
 
 def _describe_constant_angles(step: Step) -> str:
     """Describe the step in which joints keep angles constant."""
-    subject = f"{format_names(step.owners)} keep{_get_verb_ending(step.owners)}"
-    return f"{subject} {_format_removed_coordinates(step, 'angle')} as it is"
+    subject = f"{abbreviate_names(step.owners)} keep{_get_verb_ending(step.owners)}"
+    return f"{subject} {_format_removed_coordinates(step, 'angle')} constant"
 
 
 def _describe_dependent_angles(step: Step) -> str:
@@ -104,20 +107,20 @@ def _describe_dependent_angles(step: Step) -> str:
 
 
 def _describe_shared_point(step: Step) -> str:
-    """Describe the step that replaces equations of joints that meet in one point."""
+    """Describe the step that replaces equations of a multiple joint: several joints at one point."""
     added_bodies, removed_bodies = _list_bodies(step.rows_come), _list_bodies(step.rows_gone)
-    verb = f"stand{_get_verb_ending(step.rows_come[::2])}"
-    return f"{format_names(step.owners)} meet in one point: {added_bodies} {verb} in for {removed_bodies}"
+    verb = f"replace{_get_verb_ending(step.rows_come[::2])}"
+    return f"{abbreviate_names(step.owners)} are a multiple joint: {added_bodies} {verb} {removed_bodies}"
 
 
 def _describe_hinges(step: Step) -> str:
-    """Describe the step in which hinges place bodies."""
-    return f"{format_names(step.owners)}: each places a body, whose x and y follow from angles"
+    """Describe the step in which hinges of the tree determine positions of bodies."""
+    return f"{abbreviate_names(step.owners)}: each determines x and y of a body from angles"
 
 
 def _describe_slides(step: Step) -> str:
     """Describe the step in which slides replace x and y of bodies."""
-    return f"{format_names(step.owners)}: each carries a body, one slide along its axis in place of x and y"
+    return f"{abbreviate_names(step.owners)}: each replaces x and y of a body by one slide along its axis"
 
 
 def _describe_known_slides(step: Step) -> str:
@@ -127,29 +130,29 @@ def _describe_known_slides(step: Step) -> str:
 
 def _describe_driven_loops(step: Step) -> str:
     """Describe the step that evaluates loops determined by drives."""
-    clause = f"{format_names(step.owners)} close{_get_verb_ending(step.owners)} loops that drives alone move"
-    return f"{clause}: what they make of {_list_bodies(step.gone)} is evaluated, not integrated"
+    clause = f"{abbreviate_names(step.owners)} close{_get_verb_ending(step.owners)} loops that drives determine"
+    return f"{clause}: coordinates of {_list_bodies(step.gone)} are evaluated, not integrated"
 
 
 # descriptions by kind of step
-_WORDS: Mapping[str, Callable[[Step], str]] = {
-    message.PLAY: _describe_joints_with_play,
-    message.REDUNDANT: _describe_redundant_equations,
-    message.PRESCRIBED: _describe_prescribed_angles,
-    message.CONSTANT: _describe_constant_angles,
-    message.FOLLOWING: _describe_dependent_angles,
-    message.HUB: _describe_shared_point,
-    message.HINGES: _describe_hinges,
-    message.SLIDES: _describe_slides,
-    message.KNOWN: _describe_known_slides,
-    message.CHAIN: _describe_driven_loops,
+_DESCRIPTIONS: Mapping[str, Callable[[Step], str]] = {
+    reduction_log.PLAY: _describe_joints_with_play,
+    reduction_log.REDUNDANT: _describe_redundant_equations,
+    reduction_log.PRESCRIBED: _describe_prescribed_angles,
+    reduction_log.CONSTANT: _describe_constant_angles,
+    reduction_log.FOLLOWING: _describe_dependent_angles,
+    reduction_log.HUB: _describe_shared_point,
+    reduction_log.HINGES: _describe_hinges,
+    reduction_log.SLIDES: _describe_slides,
+    reduction_log.KNOWN: _describe_known_slides,
+    reduction_log.CHAIN: _describe_driven_loops,
 }
 
 
 def _format_tree(log: ReductionLog) -> str:
-    """Return the tree as "L1, L6 (L7, L8 (S9))": each body with those it carries; [..]: bodies with own x and y.
+    """Return the tree as "L1, L6 (L7, L8 (S9))": each body with its children; in [..]: bodies with their own x and y.
 
-    A large tree is summarised by its number of bodies and its depth.
+    A tree of more than 2 MAX_NAMES bodies is summarized by its number of bodies and its depth.
     """
     children: dict[str, list[str]] = {}
     bodies_without_joint = {placed.body for placed in log.tree if not placed.joint}
@@ -157,22 +160,19 @@ def _format_tree(log: ReductionLog) -> str:
         children.setdefault(placed.parent, []).append(placed.body)
     if len(log.tree) > 2 * MAX_NAMES:
         remark = f", {len(bodies_without_joint)} of them with x and y of their own" * bool(bodies_without_joint)
-        return f"{len(log.tree)} bodies, at most {_measure_tree_depth(children, 'ground')} behind each other{remark}"
+        return f"{len(log.tree)} bodies, at most {_measure_tree_depth(children, 'ground')} in a chain{remark}"
 
     def format_body(body: str) -> str:
-        """Return a body with those that it carries, in brackets, as text."""
+        """Return a body with its children, in brackets, as text."""
         name = f"[{body}]" if body in bodies_without_joint else body
         return f"{name} ({', '.join(map(format_body, children[body]))})" if body in children else name
 
-    remark = "; [keeps its x and y: no joint places it, or that is cheaper]" * bool(bodies_without_joint)
+    remark = "; [has x and y: no joint determines them, or it is cheaper]" * bool(bodies_without_joint)
     return ", ".join(map(format_body, children["ground"])) + remark
 
 
 def _measure_tree_depth(children: Mapping[str, Sequence[str]], body: str) -> int:
-    """Return the number of bodies in the longest chain carried by a body.
-
-    `children` maps a body to those that it carries.
-    """
+    """Return the number of bodies in the longest chain of descendants of a body; `children`: children by body."""
     level, depth = [body], 0
     while level := [child for parent in level for child in children.get(parent, ())]:
         depth += 1
@@ -180,13 +180,13 @@ def _measure_tree_depth(children: Mapping[str, Sequence[str]], body: str) -> int
 
 
 def _explain_choice_of_tree(costs: Sequence[int]) -> str:
-    """Return a text on why this tree was chosen.
+    """Return a text on why this spanning tree was selected.
 
-    Costs: estimated operations of each tree, the first is breadth-first.
+    `costs`: estimated operations of each tree; the first tree is breadth-first.
     """
     if len(costs) == 1:
-        return "no other was looked at"
-    comparison = "" if min(costs) == costs[0] else f" where the one breadth first has at least {costs[0]:,}"
+        return "no other was tested"
+    comparison = "" if min(costs) == costs[0] else f" where the one breadth-first has at least {costs[0]:,}"
     return f"of {len(costs)} the one of the fewest operations for M and closures, estimated {min(costs):,}{comparison}"
 
 
@@ -197,7 +197,7 @@ def _describe_coordinates(tree: Sequence[str]) -> Iterator[str]:
     positions = [name for name in tree if "." in name and not name.endswith(".slide")]
     for kind, names, preposition in (("angle", angles, "of "), ("slide", slides, "of "), ("position", positions, "")):
         if names:
-            yield f"{kind}{_get_plural_ending(names)} {preposition}{format_names(names)}"
+            yield f"{kind}{_get_plural_ending(names)} {preposition}{abbreviate_names(names)}"
 
 
 def _format_matrix(solve: Solve) -> str:
@@ -212,8 +212,8 @@ def _format_linear_systems(log: ReductionLog, is_reduced: bool) -> str:
         return f"{before} → {_format_matrix(log.after)}" if is_reduced else _format_matrix(log.after)
     sizes = sorted((len(group.rows) for group in log.groups), reverse=True)
     sizes_text = ", ".join(f"{sizes.count(n)} of {n}×{n}" for n in dict.fromkeys(sizes))
-    order = format_names([" + ".join(group.coordinates) for group in log.groups])
-    return f"{before} → without masses, {sizes_text} one after the other: {order}" if sizes else "nothing: all is known"
+    order = abbreviate_names([" + ".join(group.coordinates) for group in log.groups])
+    return f"{before} → without masses, {sizes_text} one after the other: {order}" if sizes else "nothing"
 
 
 def _format_operations(source: KernelSource) -> str:
@@ -262,6 +262,6 @@ def _format_law_operations(source: KernelSource) -> str:
         phrases = [f"{film:,} for the film"] * bool(film) + [f"{dry:,} in contact"] * bool(dry)
         joints_by_text.setdefault(" and ".join(phrases), []).append(joint.name)
     return "".join(
-        f"; {format_names(names)}{' each' * (len(names) > 1)} add{_get_verb_ending(names)} {text}"
+        f"; {abbreviate_names(names)}{' each' * (len(names) > 1)} add{_get_verb_ending(names)} {text}"
         for text, names in joints_by_text.items()
     )
