@@ -124,7 +124,7 @@ def test_lost_contact_is_seen() -> None:
     assert run.run is not None and run.run.state.any()
     blind = replace(run, run=replace(run.run, state=0 * run.run.state, stored={}))
     cell = judge_runs({}, blind, [(run, run)])
-    assert cell.status is Status.DIVERGED and "lost contact" in cell.reason
+    assert cell.status is Status.DIVERGED and "missed contact" in cell.reason
 
 
 def made(statuses: list[Status]) -> VerdictMap:

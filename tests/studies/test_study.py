@@ -107,7 +107,7 @@ def test_what_a_scene_lacks_is_told_once_and_is_nan(crank: gudgeon.Study) -> Non
 
 def test_what_runs_say_of_themselves_is_told_once_with_how_many(monkeypatch: pytest.MonkeyPatch) -> None:
     """As their own Results say it; of several blocks, and through their files."""
-    monkeypatch.setattr(resolve, "BLOCK", 2)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 2)
     clearances, expected = [1e-6, 1.5e-6, 2e-6, 3e-4], {"t_end": "pi/omega", "output": 20}
     measures = {"measures": {"F": {"peak_force": "wristpin"}}}
     found = gudgeon.study(
@@ -129,7 +129,7 @@ def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> N
 
 
 def test_blocks_and_threads_change_nothing(crank: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(resolve, "BLOCK", 5)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 5)
     monkeypatch.setattr(final, "JOINED_BYTES", 0)  # each written to the file by itself
     message: list[float] = []
     found = gudgeon.study(CRANK, threads=1, progress=lambda fraction, text: message.append(fraction))
@@ -322,7 +322,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
     (tmp_path / "s.yaml").write_text(json.dumps(study | {"format": "gudgeon-study/1"}))  # YAML holds JSON
     study["parameters"]["omega"].append("600 rpm")
     whole = gudgeon.study(study).dataset
-    monkeypatch.setattr(resolve, "BLOCK", 2)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 2)
     xr.testing.assert_identical(gudgeon.study(study).dataset, whole)
     np.testing.assert_array_equal(whole["t"].isnull().all("sample"), whole["failure"] != "")
     done = call("study", "s.yaml")

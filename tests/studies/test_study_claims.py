@@ -17,7 +17,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import make_schema
 from gudgeon.studies.ensemble import claims
-from gudgeon.studies.ensemble.claim_tables import Claimed
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -143,7 +143,7 @@ def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off:
     """NaN, of runs that failed, is in no median of deviations."""
     names = [f"N{k}" for k in range(len(off))]
     numbers = pandas.DataFrame({"claim": names, "printed": 1.0, "median": medians, "deviation": off})
-    assert Claimed(numbers, pandas.DataFrame(), "").totals() == [message]
+    assert JudgedClaims(numbers, pandas.DataFrame(), "").totals() == [message]
 
 
 @needs_compiler

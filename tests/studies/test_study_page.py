@@ -17,7 +17,7 @@ from gudgeon.generator.study.read import KEYS, read_studies, read_study
 from gudgeon.generator.study.schema import make_schema
 from gudgeon.generator.study.spec import COUNTED_PARTS, KINDS, SAMPLING_METHODS, STATISTICS
 from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
-from gudgeon.studies.ensemble.resolve import BLOCK
+from gudgeon.studies.ensemble.resolve import MAX_BLOCK_RUNS
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 
@@ -50,7 +50,7 @@ def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 def test_every_key_statistic_and_method_is_on_the_page() -> None:
     words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
     assert {*KEYS, *STATISTICS, *SAMPLING_METHODS, *KINDS, *COUNTED_PARTS} <= words
-    assert f"{BLOCK} at most" in PAGE
+    assert f"{MAX_BLOCK_RUNS} at most" in PAGE
 
 
 def test_the_schema_takes_its_file_and_refuses_others() -> None:

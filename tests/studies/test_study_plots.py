@@ -150,8 +150,8 @@ def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
 
 
 def test_a_map_has_words_where_there_is_room(study: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(study_plots, "ROWS", 2)
-    monkeypatch.setattr(study_plots, "COLUMNS", 4)
+    monkeypatch.setattr(study_plots, "MAX_Y_TICKS", 2)
+    monkeypatch.setattr(study_plots, "MAX_X_TICKS", 4)
     ax = plots(study).heat_map("far", "x0", "k", at={"way": 1})
     assert [tick.get_text() for tick in ax.get_yticklabels()] == ["100", "900"]
     assert list(ax.get_xticks()) == [0, 3, 6] and len(ax.images[0].get_array()[0]) == 9

@@ -21,7 +21,7 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
-from gudgeon.studies.ensemble.claim_tables import Claimed  # noqa: E402
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims  # noqa: E402
 from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import build_claims_sections  # noqa: E402
 from gudgeon.studies.show.pictures import PageFigures  # noqa: E402
@@ -151,7 +151,7 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
         for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))
     ]
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
-    claims = Claimed(*tables, "a paper & more")
+    claims = JudgedClaims(*tables, "a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
     parts = {name: StudyData(study) for name in whole.parts}
     (heading, inside), (trends, judgement), (ours, alone) = build_claims_sections(whole, parts, PageFigures())
@@ -217,7 +217,7 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
         "chance": 1.0,
         "agreed": True,
     }
-    claims = Claimed(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
+    claims = JudgedClaims(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
     whole: Any = SimpleNamespace(claims=claims, parts={"": study})
     pictures = PageFigures()
     (heading, inside), (own, below) = build_claims_sections(whole, {"": StudyData(study)}, pictures)
@@ -244,14 +244,16 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
         return ax
 
     shown = PageFigures()
-    places = "".join(shown.add_placeholder(f"p-{k}", partial(drawn, k)) for k in range(pictures.MANY))
+    places = "".join(
+        shown.add_placeholder(f"p-{k}", partial(drawn, k)) for k in range(pictures.MIN_FIGURES_FOR_PROCESSES)
+    )
     monkeypatch.setattr(pictures, "count_available_threads", lambda: 1)
     here = shown.insert_figures(places)
     monkeypatch.setattr(pictures, "count_available_threads", lambda: 2)
     assert shown.insert_figures(places) == here
     monkeypatch.setattr(pictures, "_send_drawn_figures", lambda connection, figures: os._exit(1))  # a process that dies
     assert shown.insert_figures(places) == here
-    assert here.count("<svg") == pictures.MANY - 1 and "not drawn: nothing to draw" in here
+    assert here.count("<svg") == pictures.MIN_FIGURES_FOR_PROCESSES - 1 and "not drawn: nothing to draw" in here
 
 
 def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

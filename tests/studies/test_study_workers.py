@@ -119,7 +119,7 @@ def test_the_command(call: Gudgeon, tmp_path: Path) -> None:
 
 
 def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gudgeon.studies.ensemble.workers.PATIENCE", 1)
+    monkeypatch.setattr("gudgeon.studies.ensemble.workers.CLUSTER_TIMEOUT_S", 1)
     (tmp_path / "s.yaml").write_text("format: gudgeon-study/1\nmechanism: pendulum\nkeep: bob.x\n")
     for address in ("tcp://127.0.0.1:1", "nonsense://x", ""):
         message = call("study", "s.yaml", "--dask", address)

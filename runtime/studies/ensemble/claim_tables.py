@@ -16,7 +16,7 @@ from gudgeon.files.writing import open_atomic, read_regular_file
 from gudgeon.language.plot_units import format_quantity
 from gudgeon.language.text_output import escape_for_spreadsheet, format_count
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, judge_claim, merge_verdicts
+from gudgeon.studies.ensemble.judge import RunCell, judge_claim, merge_verdicts
 from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
 
 if TYPE_CHECKING:
@@ -26,14 +26,19 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
     from gudgeon.studies.ensemble.plan import Plan, Plans
 
-FILE, TABLES = "claims.json", ("numbers", "trends")
+CLAIMS_FILE, TABLE_NAMES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
-ODDS = ("probability", "low", "high", "chance")
-VERDICTS = {"holds": "hold", "fails": "fail", "undecided": "undecided", NOT_COMPUTED: NOT_COMPUTED}  # of several: so
-UNNAMED = ""  # the ensemble of runs that are in none
+PROBABILITY_COLUMNS = ("probability", "low", "high", "chance")
+VERDICT_PLURALS = {
+    "holds": "hold",
+    "fails": "fail",
+    "undecided": "undecided",
+    NOT_COMPUTED: NOT_COMPUTED,
+}  # of several: so
+NO_ENSEMBLE = ""  # the ensemble of runs that are in none
 
 
-class Claimed(NamedTuple):
+class JudgedClaims(NamedTuple):
     """Two tables of judged claims, with a row for each claim and ensemble.
 
     numbers: claim, figure, says, part, at, place (of its scene along each dimension, JSON), measure, unit, printed,
@@ -57,11 +62,13 @@ class Claimed(NamedTuple):
         text_lines = []
         trends_by_claim = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
         headings = (
-            list(trends_by_claim["heading"]) if "heading" in trends_by_claim else [UNNAMED] * len(trends_by_claim)
+            list(trends_by_claim["heading"]) if "heading" in trends_by_claim else [NO_ENSEMBLE] * len(trends_by_claim)
         )
         for heading in dict.fromkeys(headings):
             counts = Counter(trends_by_claim["verdict"][[verdict == heading for verdict in headings]])
-            nonzero_counts = ((counts[verdict], verdict, many) for verdict, many in VERDICTS.items() if counts[verdict])
+            nonzero_counts = (
+                (counts[verdict], verdict, many) for verdict, many in VERDICT_PLURALS.items() if counts[verdict]
+            )
             words = (f"{count} {many if count > 1 else verdict}" for count, verdict, many in nonzero_counts)
             heading_text = f" of “{heading}”" if heading else ""
             text_lines.append(f"{format_count(counts.total(), 'trend')}{heading_text}: {', '.join(words)}")
@@ -100,7 +107,7 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
     A study without claims has such files of an earlier version removed. Raises OutputError.
     """
     if not (claims.numbers or claims.trends):
-        for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
+        for name in (CLAIMS_FILE, *(f"claims_{table}.csv" for table in TABLE_NAMES)):
             (folder / name).unlink(missing_ok=True)
         return
     runs = _FinishedRuns(plans, study, collect_names(plans).values)
@@ -109,32 +116,32 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
         "numbers": [row for judged in claims.numbers for row in _judge_number(judged, runs, cells)],
         "trends": [row for judged in claims.trends for row in _judge_trend(judged, runs)],
     }
-    with open_atomic(folder / FILE) as file:
+    with open_atomic(folder / CLAIMS_FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
-    for name, table in zip(TABLES, _build_tables(rows), strict=True):
+    for name, table in zip(TABLE_NAMES, _build_tables(rows), strict=True):
         with open_atomic(folder / f"claims_{name}.csv") as file:
             file.write(table.map(escape_for_spreadsheet).to_csv(index=False).encode())
 
 
-def read_claims(folder: Path) -> Claimed:
+def read_claims(folder: Path) -> JudgedClaims:
     """Return the judged claims from the folder of a study. Raises GudgeonError if the study makes no claims."""
     document = read_claims_json(folder)
     if document is None:
         raise GudgeonError("the file of this study makes no claims")
     numbers, trends = _build_tables(document)
-    return Claimed(numbers, trends, str(document.get("source", "")))
+    return JudgedClaims(numbers, trends, str(document.get("source", "")))
 
 
 def read_claims_json(folder: Path) -> dict[str, Any] | None:
     """Return the contents of claims.json in a folder; None if the file is missing, damaged, or without both tables."""
     try:
-        data = read_regular_file(folder / FILE)
+        data = read_regular_file(folder / CLAIMS_FILE)
         document = None if data is None else json.loads(data)
     except (OSError, ValueError, RecursionError):
         return None
     return (
         document
-        if isinstance(document, dict) and all(isinstance(document.get(name), list) for name in TABLES)
+        if isinstance(document, dict) and all(isinstance(document.get(name), list) for name in TABLE_NAMES)
         else None
     )
 
@@ -146,11 +153,11 @@ def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
     """
     import pandas
 
-    tables = [pandas.DataFrame(rows[name]) for name in TABLES]
+    tables = [pandas.DataFrame(rows[name]) for name in TABLE_NAMES]
     for name in ("printed", "q25", "median", "q75", "deviation"):
         if name in tables[0]:
             tables[0][name] = tables[0][name].astype(float)  # null is NaN
-    for name in ODDS:
+    for name in PROBABILITY_COLUMNS:
         if name in tables[1]:
             tables[1][name] = tables[1][name].astype(float)
     return tables
@@ -166,14 +173,14 @@ class _FinishedRuns:
         self.plans, self.study, self.written = plans, study, value_texts
         self.cached_values: dict[tuple[str, str], Array] = {}
 
-    def list_ensembles(self, cells: list[Cell]) -> list[str]:
+    def list_ensembles(self, cells: list[RunCell]) -> list[str]:
         """Return the names of the ensembles of the parts of these cells, each once; [""] if there are none."""
         names = [
             name for part in dict.fromkeys(cell.part for cell in cells) for name in self._list_ensemble_names(part)
         ]
-        return list(dict.fromkeys(names)) or [UNNAMED]
+        return list(dict.fromkeys(names)) or [NO_ENSEMBLE]
 
-    def has_separate_runs(self, cell: Cell, ensembles: list[str]) -> bool:
+    def has_separate_runs(self, cell: RunCell, ensembles: list[str]) -> bool:
         """Return whether a cell has runs of its own in each of these ensembles, or there is only one ensemble."""
         return len(ensembles) < 2 or set(ensembles) <= set(self._list_ensemble_names(cell.part))
 
@@ -184,7 +191,7 @@ class _FinishedRuns:
             str(name) for coordinate in plan.coordinates if coordinate.name == "ensemble" for name in coordinate.values
         ]
 
-    def read_values(self, cell: Cell, measure: str, ensemble: str) -> Array:
+    def read_values(self, cell: RunCell, measure: str, ensemble: str) -> Array:
         """Return a measure of the runs of a cell in an ensemble, (n,).
 
         If the cell does not have this ensemble, all its runs are returned. The array of the part is read once and
@@ -202,7 +209,7 @@ class _FinishedRuns:
 
 
 def _judge_number(
-    number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, Cell]
+    number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, RunCell]
 ) -> Iterator[dict[str, Any]]:
     """Yield the table row of a published number for each ensemble: quartiles of its runs, and the deviation in %.
 
@@ -276,10 +283,10 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
     if claim.not_computed:
         message = " ".join(filter(None, (claim.not_computed, claim.note)))
         yield common | {
-            "ensemble": UNNAMED,
+            "ensemble": NO_ENSEMBLE,
             "verdict": NOT_COMPUTED,
             "alone": NOT_COMPUTED,
-            **dict.fromkeys(ODDS),
+            **dict.fromkeys(PROBABILITY_COLUMNS),
             "agreed": True,
             "note": message,
         }
@@ -301,7 +308,7 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
         judged_by_ensemble[ensemble] = judge_claim(trend.checks, verdicts, certain_cells, shared_cells)
     overall, agreed = merge_verdicts(list(judged_by_ensemble.values()))
     for ensemble, judged in judged_by_ensemble.items():
-        probabilities = {name: _replace_nonfinite(getattr(judged, name)) for name in ODDS}
+        probabilities = {name: _replace_nonfinite(getattr(judged, name)) for name in PROBABILITY_COLUMNS}
         yield common | {
             "ensemble": ensemble,
             "verdict": overall.verdict,
@@ -312,7 +319,7 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
         }
 
 
-def _has_measure(finished_runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
+def _has_measure(finished_runs: _FinishedRuns, cell: RunCell, measure: str) -> bool:
     """Return whether the part that a cell belongs to has a measure of this name."""
     return any(expected.name == measure for expected in finished_runs.plans.each[cell.part].run_settings.measures)
 

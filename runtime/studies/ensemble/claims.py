@@ -24,7 +24,7 @@ from gudgeon.generator.study.spec import (
 from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.units import find_unit
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, Check, ReadMeasure
+from gudgeon.studies.ensemble.judge import Check, ReadMeasure, RunCell
 from gudgeon.studies.ensemble.parameter_values import parse_real_value
 from gudgeon.studies.ensemble.plan import Coordinate, Plan, Plans
 
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 
 MAX_COMPARED = 100_000  # cells of runs, or pairs of them, that one claim compares: each is judged alone
-FEWER = f"expected {MAX_COMPARED} at most: select some with at:, or vary less"
-STARTS = ("ensemble", "start")  # dimensions that no claim selects: it is about all of them
+TOO_MANY_HINT = f"expected {MAX_COMPARED} at most: select some with at:, or vary less"
+PERTURBATION_DIMENSIONS = ("ensemble", "start")  # dimensions that no claim selects: it is about all of them
 VALUE_RTOL = 1e-9  # relative tolerance of a coordinate's value in a claim
 MAX_LISTED = 8
 
@@ -46,7 +46,9 @@ def limit_checks(checks: Iterable[Check], claim_name: Text) -> tuple[Check, ...]
     """
     first_checks = tuple(itertools.islice(checks, MAX_COMPARED + 1))
     if len(first_checks) > MAX_COMPARED:
-        raise BadValueError(f"{claim_name} compares more than {MAX_COMPARED} pairs of runs", claim_name.where, FEWER)
+        raise BadValueError(
+            f"{claim_name} compares more than {MAX_COMPARED} pairs of runs", claim_name.where, TOO_MANY_HINT
+        )
     return first_checks
 
 
@@ -59,14 +61,14 @@ class ResolvedSelection:
     indices_by_dimension: Mapping[str, tuple[int, ...]]
     where: Text
 
-    def iterate_cells(self, fixed_indices: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], Cell]]:
+    def iterate_cells(self, fixed_indices: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], RunCell]]:
         """Yield all selected cells, each after its key: pairs (dimension, value) of the dimensions that vary and are
         not fixed.
 
         fixed_indices: dimension → index. Raises BadValueError for more than MAX_COMPARED cells.
         """
         if (count := math.prod(len(indices) for indices in self.indices_by_dimension.values())) > MAX_COMPARED:
-            raise BadValueError(f"the claim is about {count} values of coordinates", self.where.where, FEWER)
+            raise BadValueError(f"the claim is about {count} values of coordinates", self.where.where, TOO_MANY_HINT)
         for index in itertools.product(
             *(
                 [fixed_indices[name]] if name in fixed_indices else indices
@@ -78,7 +80,7 @@ class ResolvedSelection:
                 for name, k in zip(self.indices_by_dimension, index, strict=True)
                 if self._is_free(name, fixed_indices)
             ]
-            yield tuple((name, self._get_coordinate_value(name, k)) for name, k in free), Cell(self.part, index)
+            yield tuple((name, self._get_coordinate_value(name, k)) for name, k in free), RunCell(self.part, index)
 
     def _is_free(self, name: str, fixed: Mapping[str, int]) -> bool:
         """Return whether a dimension has several selected values and is not fixed."""
@@ -107,7 +109,7 @@ class ResolvedNumber:
     """A published number and the cell of runs that it describes."""
 
     claim: NumberClaim
-    cell: Cell
+    cell: RunCell
     unit: str
     printed: float | None
 
@@ -221,7 +223,7 @@ def _resolve_selection(plans: Plans, selection: Selection) -> ResolvedSelection:
     return ResolvedSelection(
         part,
         plan,
-        {name: matching for name, matching in indices_by_dimension.items() if name not in STARTS},
+        {name: matching for name, matching in indices_by_dimension.items() if name not in PERTURBATION_DIMENSIONS},
         selection.where,
     )
 
@@ -234,7 +236,7 @@ def _find_coordinate(plan: Plan, name: Text) -> Coordinate:
     coordinates = {
         candidate.name: candidate
         for candidate in plan.coordinates
-        if len(candidate.over) < 2 and not set(candidate.over) & set(STARTS)
+        if len(candidate.over) < 2 and not set(candidate.over) & set(PERTURBATION_DIMENSIONS)
     }
     coordinate = coordinates.get(str(name)) or coordinates.get(str(name).removeprefix("parameters."))
     if coordinate is None:
@@ -307,7 +309,7 @@ def _build_checks_along_dimension(selection: ResolvedSelection, statement: Trend
         yield from _build_checks_of_ordered_cells([row[key] for row in cells_by_index], statement)
 
 
-def _build_checks_of_ordered_cells(cells: list[Cell], statement: TrendStatement) -> Iterator[Check]:
+def _build_checks_of_ordered_cells(cells: list[RunCell], statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of cells in order along a dimension: neighbours, all pairs, or all cells at once.
 
     `grows_along` compares neighbours, `alike_along` all pairs, and the remaining kind the ranges of two measures.

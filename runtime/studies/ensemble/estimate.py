@@ -22,9 +22,9 @@ from gudgeon.studies.ensemble.loop import MAX_CONCURRENT_BLOCKS
 from gudgeon.studies.ensemble.measures import list_sampled_series
 from gudgeon.studies.ensemble.plan import Part, Plan, Plans
 
-READ = 3  # times a series is there while it is measured: kept, read, and what is between
-OF_A_BLOCK = 250  # bytes, about, of the notes of a block during a study
-TRIALS = 4  # runs a thread of each part, evenly over the part
+SERIES_COPIES = 3  # times a series is there while it is measured: kept, read, and what is between
+BLOCK_NOTES_BYTES = 250  # bytes, about, of the notes of a block during a study
+TRIAL_RUNS_PER_THREAD = 4  # runs a thread of each part, evenly over the part
 MIN_TRIAL_S = 1.0  # s; a shorter trial is repeated, since most of a first time is start-up
 
 
@@ -37,7 +37,9 @@ def check_disk_and_memory(plans: Plans, folder: Path, threads: int | None, in_pr
     """
     cores = threads or count_available_threads()
     for plan in plans.each.values():
-        check_memory(OF_A_BLOCK * plan.count_of_blocks, f"a study of {plan.runs} runs in {plan.count_of_blocks} blocks")
+        check_memory(
+            BLOCK_NOTES_BYTES * plan.count_of_blocks, f"a study of {plan.runs} runs in {plan.count_of_blocks} blocks"
+        )
         for part in plan.parts if in_process else ():
             _check_block_memory(plan, part, cores)
     size = sum(estimate_disk_bytes(plan) for plan in plans.each.values())
@@ -59,7 +61,7 @@ def _check_block_memory(plan: Plan, part: Part, cores: int) -> None:
     state = compute_sample_bytes(compiled) + compute_evaluation_bytes(
         compiled, find_evaluation_parts(compiled.source, names)
     )
-    size = state * min(max(cores, most), most * part.block) + most * part.block * 8 * READ * (len(names) + 1)
+    size = state * min(max(cores, most), most * part.block) + most * part.block * 8 * SERIES_COPIES * (len(names) + 1)
     runs = f"{most * part.block} runs" if most * part.block > 1 else "a run"
     check_memory(size * part.samples, f"{runs} of {part.samples:.0f} samples, under way at once,")
 
@@ -93,7 +95,7 @@ def estimate_study(plan: Plan, threads: int | None) -> Estimate:
     threads: None means the number of cores. A trial shorter than MIN_TRIAL_S seconds is repeated, since the first time
     includes the start-up.
     """
-    count = min(plan.each, TRIALS * (threads or count_available_threads()))
+    count = min(plan.each, TRIAL_RUNS_PER_THREAD * (threads or count_available_threads()))
     runs = np.unique(np.linspace(0, plan.each - 1, count).astype(int))
     seconds, size, failures = 0.0, 0, list[str]()
     for k, part in enumerate(plan.parts):

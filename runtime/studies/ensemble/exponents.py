@@ -33,15 +33,15 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.studies.ensemble.block import Job, RunTable
 
-WHOLE = "run"  # in the place of a section
-OF_SECTION = ("lyapunov_per_return", "motion", "motion_confidence")
+WHOLE_RUN = "run"  # in the place of a section
+SECTION_STATISTICS = ("lyapunov_per_return", "motion", "motion_confidence")
 NEIGHBOUR_STATISTICS: Mapping[str, str] = {
     "lyapunov": "1/s",
     "lyapunov_error": "1/s",
     "believable": "s",
-} | dict.fromkeys(OF_SECTION, "")  # with their units
-KINDS: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # a periodic motion is its period
-KINDS_TOLD = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
+} | dict.fromkeys(SECTION_STATISTICS, "")  # with their units
+MOTION_CODES: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # a periodic motion is its period
+MOTION_CODES_TEXT = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
 
 
 def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
@@ -58,10 +58,10 @@ def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
         if measure.statistic == "believable" and (study.step is not None or study.method == "rk4"):
             message = f"{owner}: what a fixed step errs by is not known"
             raise BadValueError(message, where, "expected a method that chooses its step, by rtol")
-        if measure.of == WHOLE and measure.statistic in OF_SECTION:
+        if measure.of == WHOLE_RUN and measure.statistic in SECTION_STATISTICS:
             message = f"{owner}: {measure.statistic.replace('_', ' ')} is of returns to a section"
             raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
-        if measure.of != WHOLE and not _is_event_section(measure, source):
+        if measure.of != WHOLE_RUN and not _is_event_section(measure, source):
             _check_period_expression(measure, source)
 
 
@@ -79,7 +79,7 @@ def _check_period_expression(measure: Measure, source: KernelSource) -> None:
         check_expression(source, written, TIME, {"t_end": TIME})
     except InputError as error:
         events = ", ".join(event.name for event in source.events) or "none"
-        hint = f"expected {WHOLE}, an event of scene {source.scene} ({events}), or a period: 2*pi/omega"
+        hint = f"expected {WHOLE_RUN}, an event of scene {source.scene} ({events}), or a period: 2*pi/omega"
         raise type(error)(error.message, error.where, hint) from None
 
 
@@ -173,7 +173,7 @@ class _NeighbourComputation:
         """Return the section of a measure for run i: None for the whole motion, the name of an event, or a period
         (s).
         """
-        if measure.of == WHOLE:
+        if measure.of == WHOLE_RUN:
             return None
         if _is_event_section(measure, self.simulation.source):
             return str(measure.of)
@@ -192,7 +192,7 @@ def _read_statistic(statistic: str, lyapunov: Lyapunov | None, initial_error: fl
     """Return the value of a statistic from a computed Lyapunov exponent; NaN for None.
 
     initial_error: relative error of the initial state for the predictability horizon. A periodic motion is its period
-    in returns, other kinds of motion are codes (KINDS).
+    in returns, other kinds of motion are codes (MOTION_CODES).
     """
     if lyapunov is None:
         return math.nan
@@ -200,7 +200,7 @@ def _read_statistic(statistic: str, lyapunov: Lyapunov | None, initial_error: fl
         return lyapunov.believable(initial_error)
     if statistic == "motion":
         motion = lyapunov.motion
-        return float(motion.period) if motion.kind == PERIODIC else KINDS[motion.kind]
+        return float(motion.period) if motion.kind == PERIODIC else MOTION_CODES[motion.kind]
     values: dict[str, Any] = {
         "lyapunov": lambda: lyapunov.exponent,
         "lyapunov_error": lambda: lyapunov.uncertainty,

@@ -19,8 +19,11 @@ from gudgeon.studies.ensemble.notes import MAX_NOTES, Note, get_message_kind, me
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
 JOINED_BYTES = 1 << 20  # bytes of blocks that are written at once
-MOST_COORDINATES = 6  # that name a run
-MOST_KINDS, MAX_TEXT_LENGTH = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
+MAX_LISTED_COORDINATES = 6  # that name a run
+MAX_FAILURE_KINDS, MAX_TEXT_LENGTH = (
+    50,
+    50_000,
+)  # kinds of failures, characters of an attribute: HDF5 has no longer ones
 
 
 def write_dataset(folder: StudyFolder) -> None:
@@ -133,7 +136,7 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_comm
         lines = (*plan.notes, *(_format_note(plan, note) for note in frequent))
         file.attrs["notes"] = "\n".join(lines)[: MAX_TEXT_LENGTH // 4]
         file.attrs["failed"] = sum(kinds.values())
-        file.attrs["failure_kinds"] = json.dumps(often := dict(kinds.most_common(MOST_KINDS)))
+        file.attrs["failure_kinds"] = json.dumps(often := dict(kinds.most_common(MAX_FAILURE_KINDS)))
         file.attrs["failure_first"] = json.dumps([first[kind] for kind in often])
 
 
@@ -148,7 +151,7 @@ def _format_note(plan: Plan, note: Note) -> str:
     values = [
         f"{coordinate.name}={_format_value(coordinate.values[indices[coordinate.over[0]]])}"
         for coordinate in coordinates
-    ][:MOST_COORDINATES]
+    ][:MAX_LISTED_COORDINATES]
     such = f" ({', '.join(values)})" if values else ""
     return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
 

@@ -15,7 +15,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import open_atomic
 from gudgeon.language.argument_checks import check_names, check_path
 from gudgeon.language.names import make_missing_name_error
-from gudgeon.studies.ensemble.claim_tables import Claimed, read_claims
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims, read_claims
 from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, import_h5py
 from gudgeon.studies.ensemble.names import Names, read_names
 
@@ -74,7 +74,7 @@ class Study:
         return {}
 
     @cached_property
-    def claims(self) -> Claimed:
+    def claims(self) -> JudgedClaims:
         """Return the claims of the file, judged by the runs: `claims.numbers` and `claims.trends`, two tables.
 
         Of a study in parts, each part has the numbers that name it, and all trends. Raises GudgeonError for a file

@@ -18,7 +18,7 @@ import numpy as np
 
 from gudgeon.results.batch import Array
 
-HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
+MIN_P_HOLDS, MAX_P_FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
 MAX_COMBINATIONS = 1 << 20  # combinations that are evaluated one by one; of more, so many random ones
 TAIL_PROBABILITY = 0.05  # probability beyond each end of an interval
 RUN_INDICES = ""  # in place of a measure: indices of the runs of a cell that have all measures
@@ -26,7 +26,7 @@ VERDICTS = ("holds", "fails", "undecided")
 
 
 @dataclass(frozen=True)
-class Cell:
+class RunCell:
     """Runs that differ in their starts only: a part, and indices along its other dimensions."""
 
     part: str
@@ -34,14 +34,14 @@ class Cell:
 
 
 ReadMeasure: TypeAlias = Callable[[int, str], Array]  # number of a check's cell, measure -> values of the runs in it
-Runs: TypeAlias = Mapping[Cell, Mapping[str, Array]]  # measure -> (n,)
+Runs: TypeAlias = Mapping[RunCell, Mapping[str, Array]]  # measure -> (n,)
 
 
 @dataclass(frozen=True, eq=False)
 class Check:
     """A condition on one run of each of some cells."""
 
-    cells: tuple[Cell, ...]
+    cells: tuple[RunCell, ...]
     measures: tuple[str, ...]
     meets_condition: Callable[[ReadMeasure], Array]
 
@@ -103,7 +103,10 @@ def _compute_wilson_bound(p: float, n: float, sign: float, tail_probability: flo
 
 
 def judge_claim(
-    checks: Sequence[Check], runs: Runs, deterministic_cells: Container[Cell] = (), shared_cells: Container[Cell] = ()
+    checks: Sequence[Check],
+    runs: Runs,
+    deterministic_cells: Container[RunCell] = (),
+    shared_cells: Container[RunCell] = (),
 ) -> ClaimVerdict:
     """Return the verdict on a claim: it holds if each of its checks is likely, and fails if one is unlikely.
 
@@ -172,8 +175,8 @@ def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) 
     low = min(one.compute_bound(-1.0) for one in estimates)
     high = min(one.compute_bound(1.0, TAIL_PROBABILITY / len(estimates)) for one in estimates)
     least_likely = min(estimates, key=lambda one: one.p)
-    verdict = "fails" if high <= FAILS else "holds" if low >= HOLDS else "undecided"
-    denied = frozenset(name for name, is_so in (("holds", high < HOLDS), ("fails", low > FAILS)) if is_so)
+    verdict = "fails" if high <= MAX_P_FAILS else "holds" if low >= MIN_P_HOLDS else "undecided"
+    denied = frozenset(name for name, is_so in (("holds", high < MIN_P_HOLDS), ("fails", low > MAX_P_FAILS)) if is_so)
     return ClaimVerdict(
         verdict,
         least_likely.p,
@@ -190,7 +193,7 @@ def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
 
     The entry RUN_INDICES of a cell has the indices of these runs.
     """
-    measures_by_cell: dict[Cell, dict[str, None]] = {}
+    measures_by_cell: dict[RunCell, dict[str, None]] = {}
     for check in checks:
         for cell in check.cells:
             measures_by_cell.setdefault(cell, {}).update(dict.fromkeys(check.measures))
@@ -205,7 +208,7 @@ def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
 
 
 def _estimate_check_probability(
-    check: Check, runs: Runs, deterministic_cells: Container[Cell], shared_cells: Container[Cell]
+    check: Check, runs: Runs, deterministic_cells: Container[RunCell], shared_cells: Container[RunCell]
 ) -> ProbabilityEstimate:
     """Return the probability of a check and the number of independent trials that it is worth.
 
@@ -274,7 +277,7 @@ def _compute_mean_covariance(a: Array, b: Array) -> float:
     return float(np.cov(a[:length][is_common], b[:length][is_common])[0, 1]) * n / float(counts[0] * counts[1])
 
 
-def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:
+def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[RunCell, Array]]:
     """Return the fraction of combinations of runs that meet all checks, a flag for each, and the run of each cell in
     each.
 
@@ -312,7 +315,7 @@ def _draw_combinations(run_counts: Sequence[int]) -> Sequence[Array]:
 
 def _group_checks(checks: Sequence[Check]) -> list[list[Check]]:
     """Return groups of checks that share cells, directly or through other checks; different groups are independent."""
-    groups: list[tuple[set[Cell], list[Check]]] = []
+    groups: list[tuple[set[RunCell], list[Check]]] = []
     for check in checks:
         cells, group_checks = set(check.cells), [check]
         independent_groups = []

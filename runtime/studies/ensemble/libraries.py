@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import StudyFile
     from gudgeon.generator.yaml import Text
 
-FEWEST = 3  # libraries to make, from which on a second process pays: it begins with loading SymPy
-MOST = 64  # libraries that are left to it: more do not fit into its command line
+MIN_LIBRARIES_FOR_PROCESS = 3  # libraries to make, from which on a second process pays: it begins with loading SymPy
+MAX_LIBRARIES_FOR_PROCESS = 64  # libraries that are left to it: more do not fit into its command line
 COMPILE_CODE = f"from {__name__} import compile_listed_libraries as run; run()"
 
 
@@ -109,8 +109,8 @@ def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iter
     ]
     with Programs() as programs:
         process = None
-        if len(missing) >= FEWEST and count_available_threads() > 1:
-            arguments = json.dumps([list_law_files(), missing[: -MOST - 1 : -1]])
+        if len(missing) >= MIN_LIBRARIES_FOR_PROCESS and count_available_threads() > 1:
+            arguments = json.dumps([list_law_files(), missing[: -MAX_LIBRARIES_FOR_PROCESS - 1 : -1]])
             try:
                 process = programs.start([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))
             except OSError:

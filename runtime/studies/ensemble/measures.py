@@ -13,7 +13,7 @@ from gudgeon.results.batch import Array
 from gudgeon.results.series import check_series, get_catalogue
 from gudgeon.results.wear import SlidingRequest, compute_shortest_arc
 from gudgeon.simulation.examine import has_known_contact_force
-from gudgeon.studies.ensemble.exponents import KINDS_TOLD, NEIGHBOUR_STATISTICS
+from gudgeon.studies.ensemble.exponents import MOTION_CODES_TEXT, NEIGHBOUR_STATISTICS
 from gudgeon.studies.ensemble.parameter_values import ROUNDING
 
 if TYPE_CHECKING:
@@ -25,17 +25,17 @@ SubtractedSeries: TypeAlias = Mapping[
 ]  # scene -> series of runs, (n, N) each, at their own samples
 Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
 
-STEPS: Mapping[str, str] = {
+STEP_STATISTICS: Mapping[str, str] = {
     "max_of_steps": "max",
     "min_of_steps": "min",
     "peak_of_steps": "abs",
     "deviation_of_steps": "abs",
 }
-JOINT: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
-CONTACTS, CROSSINGS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
-WEAR = ("wear_depth", "wear_arc")
-OF_JOINTS = (*CONTACTS, *JOINT, *WEAR)
-UNITS = {
+JOINT_PEAKS: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
+CONTACT_STATISTICS, CROSSING_STATISTICS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
+WEAR_STATISTICS = ("wear_depth", "wear_arc")
+JOINT_STATISTICS = (*CONTACT_STATISTICS, *JOINT_PEAKS, *WEAR_STATISTICS)
+STATISTIC_UNITS = {
     "impacts": "",
     "first_impact": "s",
     "impact_speed": "m/s",
@@ -56,7 +56,7 @@ def list_sampled_series(
     Names that the scene lacks are left out; measures of contacts, events, steps and neighbours need no samples.
     """
     catalogue = get_catalogue(source)
-    others = (*OF_JOINTS, *CROSSINGS, *STEPS, *NEIGHBOUR_STATISTICS)
+    others = (*JOINT_STATISTICS, *CROSSING_STATISTICS, *STEP_STATISTICS, *NEIGHBOUR_STATISTICS)
     expected = [*(str(measure.of) for measure in measures if measure.statistic not in others), *stored_names]
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
@@ -68,7 +68,9 @@ def list_peak_series(measures: tuple[Measure, ...], source: KernelSource) -> lis
     """
     catalogue = get_catalogue(source)
     expected = (
-        str(measure.of) for measure in measures if measure.statistic in STEPS and measure.origin != source.scene
+        str(measure.of)
+        for measure in measures
+        if measure.statistic in STEP_STATISTICS and measure.origin != source.scene
     )
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
@@ -76,7 +78,7 @@ def list_peak_series(measures: tuple[Measure, ...], source: KernelSource) -> lis
 def list_sliding_requests(measures: tuple[Measure, ...], source: KernelSource) -> tuple[SlidingRequest, ...]:
     """Return the requests for sliding loads of the joints of a scene whose wear is measured, without repetitions."""
     joints = _list_joints(source, with_wear=True)
-    expected = (str(measure.of) for measure in measures if measure.statistic in WEAR)
+    expected = (str(measure.of) for measure in measures if measure.statistic in WEAR_STATISTICS)
     return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in joints)
 
 
@@ -85,10 +87,14 @@ def find_measure_unit(measure: Measure, source: KernelSource) -> str | None:
 
     Measures of neighbouring trajectories are lacking without degrees of freedom.
     """
-    if measure.statistic in OF_JOINTS:
-        return UNITS[measure.statistic] if measure.of in _list_joints(source, measure.statistic in WEAR) else None
-    if measure.statistic in CROSSINGS:
-        return UNITS[measure.statistic] if measure.of in _list_events(source) else None
+    if measure.statistic in JOINT_STATISTICS:
+        return (
+            STATISTIC_UNITS[measure.statistic]
+            if measure.of in _list_joints(source, measure.statistic in WEAR_STATISTICS)
+            else None
+        )
+    if measure.statistic in CROSSING_STATISTICS:
+        return STATISTIC_UNITS[measure.statistic] if measure.of in _list_events(source) else None
     if measure.statistic in NEIGHBOUR_STATISTICS:
         return NEIGHBOUR_STATISTICS[measure.statistic] if source.degrees_of_freedom > 0 else None
     return get_catalogue(source)[measure.of].unit if measure.of in get_catalogue(source) else None
@@ -100,11 +106,11 @@ def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputE
     """
     from gudgeon.language.names import make_unknown_name_error
 
-    if measure.statistic in OF_JOINTS:
+    if measure.statistic in JOINT_STATISTICS:
         return make_unknown_name_error(
-            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR), measure.of.where
+            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR_STATISTICS), measure.of.where
         )
-    if measure.statistic in CROSSINGS:
+    if measure.statistic in CROSSING_STATISTICS:
         return make_unknown_name_error("event", measure.of, _list_events(source), measure.of.where)
     if measure.statistic in NEIGHBOUR_STATISTICS:
         message = f"scene {source.scene} has no degree of freedom: no difference can grow"
@@ -147,7 +153,7 @@ def _list_events(source: KernelSource) -> list[str]:
 def describe_measure(measure: Measure) -> str:
     """Return a description of a measure: "peak of slider.ax in window last"."""
     message = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
-    message = f"{message} ({KINDS_TOLD})" if measure.statistic == "motion" else message
+    message = f"{message} ({MOTION_CODES_TEXT})" if measure.statistic == "motion" else message
     message = f"{message} from scene {measure.origin}" if measure.origin is not None else message
     return f"{message} in window {measure.window}" if measure.window else message
 
@@ -166,20 +172,20 @@ def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_se
     begin, end = spans.get(measure.window, (None, None))
     begin = np.full(len(batch), -np.inf) if begin is None else begin
     end = np.full(len(batch), np.inf) if end is None else end
-    if measure.statistic in STEPS:
+    if measure.statistic in STEP_STATISTICS:
         return _read_step_peaks(batch, measure)
-    if measure.statistic in JOINT:
-        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _list_joints(source).index(measure.of)])
-    if measure.statistic in WEAR:
+    if measure.statistic in JOINT_PEAKS:
+        return np.asarray(batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints(source).index(measure.of)])
+    if measure.statistic in WEAR_STATISTICS:
         return _compute_bearing_wear(batch, measure)
-    if measure.statistic in CONTACTS:
+    if measure.statistic in CONTACT_STATISTICS:
         return _evaluate_contact_measure(batch, measure, begin, end)
-    if measure.statistic in CROSSINGS:
+    if measure.statistic in CROSSING_STATISTICS:
         return _evaluate_event_measure(batch, measure, begin, end)
     values = batch.kept[str(measure.of)]
     if measure.origin is not None:
         values = values - (values if measure.origin == source.scene else subtracted_series[measure.origin][measure.of])
-    return STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
+    return SAMPLE_STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
 
 
 def _read_step_peaks(batch: Batch, measure: Measure) -> Array:
@@ -190,7 +196,7 @@ def _read_step_peaks(batch: Batch, measure: Measure) -> Array:
     if measure.origin is not None and measure.origin == batch.source.scene:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
     peaks = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
-    return np.asarray(getattr(peaks, STEPS[measure.statistic]))
+    return np.asarray(getattr(peaks, STEP_STATISTICS[measure.statistic]))
 
 
 def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
@@ -258,7 +264,7 @@ def find_sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array
     spans: begin and end of each window by its name. runs: indices (n,) of the runs in these. None if no measure needs
     samples, or one needs the whole run.
     """
-    windows = {measure.window for measure in measures if measure.statistic in STATISTICS}
+    windows = {measure.window for measure in measures if measure.statistic in SAMPLE_STATISTICS}
     if not (windows and all(windows)):
         return None
     ends = [spans[str(window)] for window in windows]
@@ -332,7 +338,7 @@ def _find_final_sample(t: Array, x: Array, begin: Array, end: Array) -> Array:
     return np.asarray(np.where(inside.any(axis=1), x[np.arange(len(x)), last], np.nan))
 
 
-STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
+SAMPLE_STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
     "max": _compute_max,
     "min": _compute_min,
     "peak": _compute_peak,

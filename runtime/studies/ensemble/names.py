@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import ParameterValues
     from gudgeon.studies.ensemble.plan import Plans
 
-FILE = "names.json"
+NAMES_FILE = "names.json"
 _PI = re.compile(r"^([-+]?)(?:pi|π)(?=\s)")  # alone, without a number before it
 _QUANTITY = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[eE]([-+]?\d+))?\s*(\*\s*pi|\*?\s*π)?\s+([A-Za-zµΩ°][^\s()]*)")
-MAX_SPACED_VALUES, NOTHING = 1000, 1e-12  # values of which texts are made; of the largest one: so small a value is 0
+MAX_SPACED_VALUES, ZERO_TOL = 1000, 1e-12  # values of which texts are made; of the largest one: so small a value is 0
 
 
 class Names(NamedTuple):
@@ -76,7 +76,7 @@ def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
     ((pi, unit),) = units_of_ends
     first, last = (float(f"{end[1]}e{end[2] or 0}") for end in ends if end)
     row = (np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace)(first, last, parameter_values.count)
-    row[np.abs(row) < NOTHING * np.abs(row).max()] = 0.0
+    row[np.abs(row) < ZERO_TOL * np.abs(row).max()] = 0.0
     between = (f"{value:.6g}{'*pi' if pi else ''} {unit}" for value in row[1:-1])
     return str(parameter_values.texts[0]), *between, str(parameter_values.texts[1])
 
@@ -106,14 +106,14 @@ def write_names(folder: Path, plans: Plans) -> None:
 
     Raises OutputError.
     """
-    with open_atomic(folder / FILE) as file:
+    with open_atomic(folder / NAMES_FILE) as file:
         file.write(json.dumps(collect_names(plans)._asdict(), indent=1, ensure_ascii=False).encode())
 
 
 def read_names(folder: Path) -> Names:
     """Return the titles and value texts of a study's folder; all are empty if names.json is missing or damaged."""
     try:
-        data = read_regular_file(folder / FILE)
+        data = read_regular_file(folder / NAMES_FILE)
         document = {} if data is None else json.loads(data)
         titles = {str(name): str(title) for name, title in document.get("titles", {}).items()}
         values = {

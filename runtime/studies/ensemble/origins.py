@@ -23,7 +23,7 @@ from gudgeon.results.results import make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import choose_method, load_library
-from gudgeon.studies.ensemble.measures import STEPS
+from gudgeon.studies.ensemble.measures import STEP_STATISTICS
 from gudgeon.studies.ensemble.parameter_values import find_parameter_key
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def list_subtracted_scenes(measures: Iterable[Measure], excluded_scene: str = ""
 def find_scene_subtracted_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
     """Return the scene that measures over all steps subtract in scene `source`; "" if there is none."""
     step_measures = (
-        measure for measure in measures if measure.statistic in STEPS and measure.of in get_catalogue(source)
+        measure for measure in measures if measure.statistic in STEP_STATISTICS and measure.of in get_catalogue(source)
     )
     return next(iter(list_subtracted_scenes(step_measures, source.scene)), "")
 
@@ -132,7 +132,7 @@ def compute_subtracted_series(
     `failures`.
     """
     series_by_scene: dict[str, dict[str, Array]] = {}
-    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEPS]
+    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
     for scene in list_subtracted_scenes(expected, batch.source.scene):
         simulation = load_subtracted_scene(job, scene)
         common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.claims import ResolvedClaims
 
 FOLDER_FORMAT = "gudgeon-study-folder/1"
-MOST_RUNS, MOST_STRUCTURES = 100_000_000, 10_000
+MAX_RUNS, MAX_STRUCTURES = 100_000_000, 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class Coordinate:
 
 
 @dataclass(frozen=True, eq=False)
-class Dimension:
+class StudyDimension:
     """A dimension of a study: the parameters that vary along it by address, (length,) each."""
 
     name: str
@@ -84,8 +84,8 @@ class Plan:
     """A study with resolved names; dimensions of structure come first, then those of parameters."""
 
     study: StudyFile
-    structure: tuple[Dimension, ...]
-    numbers: tuple[Dimension, ...]
+    structure: tuple[StudyDimension, ...]
+    numbers: tuple[StudyDimension, ...]
     fixed: Mapping[str, float | str]
     deviations: Deviations | None
     coordinates: tuple[Coordinate, ...]
@@ -240,8 +240,8 @@ def check_study_size(study: StudyFile) -> None:
         numbers.append((study.starts.count * len(study.starts.ensembles), start_name.where))
     loaded, runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *numbers])
     for count, most, several, what in (
-        (loaded, MOST_STRUCTURES, structures, "scenes with their choices, a library each"),
-        (runs, MOST_RUNS, [*structures, *numbers], "runs"),
+        (loaded, MAX_STRUCTURES, structures, "scenes with their choices, a library each"),
+        (runs, MAX_RUNS, [*structures, *numbers], "runs"),
     ):
         if count > most:
             where = max(several, key=lambda one: one[0])[1]

@@ -44,14 +44,14 @@ from gudgeon.studies.ensemble.parameter_values import (
     parse_parameter_value,
     parse_real_value,
 )
-from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_study_size
+from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Part, Plan, StudyDimension, check_study_size
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Distribution, Draw, Starts, StudyFile
     from gudgeon.generator.yaml import Text
 
 
-BLOCK = 128  # runs of a block at most
+MAX_BLOCK_RUNS = 128  # runs of a block at most
 MAX_BLOCK_BYTES = 1 << 26  # of states and series of a block, about
 N_SIZING_RUNS = 64  # runs of a part whose samples are counted to size its blocks
 RANDOM, LATIN, HALTON = "random", "latin_hypercube", "halton"
@@ -94,7 +94,7 @@ def resolve_study(study: StudyFile) -> Plan:
     return replace(plan, parts=tuple(_choose_block_size(plan, k) for k in range(len(parts))))
 
 
-def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
+def _resolve_structure(study: StudyFile) -> tuple[list[StudyDimension], list[Coordinate]]:
     """Return dimensions and coordinates of scenes and of choices of structure.
 
     A single scene is a coordinate without a dimension.
@@ -106,7 +106,7 @@ def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordina
         coordinates.append(
             Coordinate("scene", (), np.array(str(study.scenes[0]), object), "", "scene of the mechanism")
         )
-    return [Dimension(name, len(words)) for name, words, _ in named], coordinates
+    return [StudyDimension(name, len(words)) for name, words, _ in named], coordinates
 
 
 def _load_parts(study: StudyFile) -> Iterator[Part]:
@@ -142,7 +142,9 @@ def _load_scene(
         raise type(error)(error.message, (text or scene).where, error.hint) from None
 
 
-def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
+def _resolve_parameters(
+    study: StudyFile, sources: Sequence[KernelSource]
+) -> tuple[list[StudyDimension], list[Coordinate]]:
     """Return dimensions and coordinates of the varied parameters: `parameters:`, `zip:` and `draw:` of the study
     file.
     """
@@ -158,10 +160,10 @@ def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tu
         length = len(next(iter(columns.values())))
         if axis.grouped:
             coordinates.append(Coordinate(axis.name, (axis.name,), np.arange(length), "", f"place in zip {axis.name}"))
-        dimensions.append(Dimension(axis.name, length, columns))
+        dimensions.append(StudyDimension(axis.name, length, columns))
     if study.draw is not None:
         columns = _draw_values(study.draw, sources)
-        dimensions.append(Dimension("draw", study.draw.count, columns))
+        dimensions.append(StudyDimension("draw", study.draw.count, columns))
         message = f"point of {study.draw.method}, seed {study.draw.seed}"
         coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
         for name in study.draw.numbers:
@@ -195,7 +197,7 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
 
 def _resolve_starts(
     starts: Starts | None, sources: Sequence[KernelSource]
-) -> tuple[Deviations | None, list[Coordinate], list[Dimension]]:
+) -> tuple[Deviations | None, list[Coordinate], list[StudyDimension]]:
     """Return deviations, coordinates and dimensions of perturbed starts; None and empty lists without them."""
     if starts is None:
         return None, [], []
@@ -238,8 +240,8 @@ def _resolve_starts(
                     f"{name}.{kind}", (*ensemble_dimension, "start"), values, unit, f"{kind} deviation of {name}"
                 ),
             ]
-    dimensions = [Dimension("ensemble", len(ensembles))] if starts.named else []
-    return deviations_, coordinates, [*dimensions, Dimension("start", starts.count)]
+    dimensions = [StudyDimension("ensemble", len(ensembles))] if starts.named else []
+    return deviations_, coordinates, [*dimensions, StudyDimension("start", starts.count)]
 
 
 def _parse_deviation_sizes(
@@ -383,7 +385,7 @@ def _choose_block_size(plan: Plan, part_index: int) -> Part:
             plan.run_settings.measures, plan.run_settings.keep, plan.parts[part_index].simulation.source
         )
     )
-    block = int(max(1, min(BLOCK, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
+    block = int(max(1, min(MAX_BLOCK_RUNS, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
     return replace(plan.parts[part_index], block=block, samples=mean_samples, most=max_samples)
 
 

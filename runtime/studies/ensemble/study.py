@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import Plan, Plans
 
-MOST_THREADS = 4096
+MAX_THREADS = 4096
 
 
 def resolve_plans(
@@ -121,7 +121,7 @@ def study(
     Raises InputError with its location for a mistake in the study or a folder of another study; OutputError for a full
     disk. Ctrl-C is passed on, and finished blocks stay in the folder.
     """
-    threads = None if threads is None else check_integer(threads, "threads", 1, MOST_THREADS)
+    threads = None if threads is None else check_integer(threads, "threads", 1, MAX_THREADS)
     pool, progress = convert_to_executor(executor), check_callable(progress, "progress")
     restart, plans = check_flag(restart, "restart"), resolve_plans(study, settings, starts, seed)
     if folder is None:

@@ -17,7 +17,7 @@ from gudgeon.language.argument_checks import check_instance
 
 BLOCKS_PER_WORKER = 2  # blocks for each worker that wait or run
 DEFAULT_N_WORKERS = 4  # assumed workers of an executor whose number is not known
-PATIENCE = 10  # s, timeout of a cluster
+CLUSTER_TIMEOUT_S = 10  # s, timeout of a cluster
 
 
 class Processes(Executor):
@@ -147,7 +147,7 @@ def _connect_to_cluster(address: str) -> Iterator[Any]:
         if not address.strip():  # of that Client makes a cluster of its own
             raise ValueError("the address is empty")
         client = Client(
-            address, timeout=PATIENCE, set_as_default=False
+            address, timeout=CLUSTER_TIMEOUT_S, set_as_default=False
         )  # otherwise other code would use a failed client
     except (OSError, ValueError, TypeError) as error:
         message = (

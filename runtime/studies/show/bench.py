@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 COLUMNS = ("method", "step, tol", "run time", "rhs", "Jacobians", "coordinates", "paths", "forces")
-GOOD_FORCE = 0.01  # largest error of forces, as a fraction of the peak force, in the notes of `bench`
+MAX_FORCE_ERROR = 0.01  # largest error of forces, as a fraction of the peak force, in the notes of `bench`
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # bounds of errors in the second table
 
 
@@ -197,10 +197,10 @@ def describe_bench(scene_bench: SceneBench, marked_step: float | None) -> list[s
     if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
         lines.append(f"observed order of rk4: {text}")
     if scene_bench.list_rows("rk4"):
-        good = [row for row in scene_bench.list_rows("rk4") if not row.failure and row.error.force < GOOD_FORCE]
+        good = [row for row in scene_bench.list_rows("rk4") if not row.failure and row.error.force < MAX_FORCE_ERROR]
         bad = [row.setting.value for row in scene_bench.list_rows("rk4") if row.failure]
         text = str(good[0].setting) if good else "none"
-        line = f"largest step of rk4 with forces within {format_fraction(GOOD_FORCE)} of their peak: {text}"
+        line = f"largest step of rk4 with forces within {format_fraction(MAX_FORCE_ERROR)} of their peak: {text}"
         lines.append(line + (f"; from {format_seconds(min(bad))} on the run diverges" if bad else ""))
     if marked_step is not None:
         lines.append(f"rk4 at {format_seconds(marked_step)}: {_describe_step(scene_bench, marked_step)}")

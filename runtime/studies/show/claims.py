@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
 LOG_SCALE_RATIO = 30.0  # times the least, from which on an axis of values is logarithmic
-SHORT, MAX_LINES = 22, 4  # characters of a line of where a number was taken, and lines, that stand under it
+MAX_TICK_LINE_LENGTH, MAX_TICK_LINES = (
+    22,
+    4,
+)  # characters of a line of where a number was taken, and lines, that stand under it
 NOTE = "note"
 NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of claims without one
 
@@ -368,7 +371,9 @@ def _format_tick_label(row: Row, claim_names: _ClaimNames, with_scene: bool) -> 
     """
     coordinate_texts = claim_names.describe_cell(row).split(", ")
     coordinates = (
-        coordinate_texts if max(map(len, coordinate_texts)) <= SHORT and len(coordinate_texts) <= MAX_LINES else []
+        coordinate_texts
+        if max(map(len, coordinate_texts)) <= MAX_TICK_LINE_LENGTH and len(coordinate_texts) <= MAX_TICK_LINES
+        else []
     )
     return "\n".join(
         filter(None, (str(row["claim"]), claim_names.find_scene_title(row) if with_scene else "", *coordinates))

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MAX_FIGURES = 40
-MANY = 12  # figures, from which on it is worth while to begin a process for them
-FEW = 4  # figures, for which no core is taken
-_AROUND = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
+MIN_FIGURES_FOR_PROCESSES = 12  # figures, from which on it is worth while to begin a process for them
+MIN_FIGURES_PER_PROCESS = 4  # figures, for which no core is taken
+_NON_SVG = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
 _IDS = re.compile(r'(\bid="|xlink:href="#|url\(#)')
-_PLACE = re.compile(r"<!--picture (\d+)-->")
+_PLACEHOLDER = re.compile(r"<!--picture (\d+)-->")
 CaptionedFigure = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
 
 
@@ -49,7 +49,7 @@ class PageFigures:
     def insert_figures(self, page: str) -> str:
         """Draw all registered figures and return the page with their SVG in place of the placeholders."""
         drawn = _draw_in_processes(self.figures)
-        return _PLACE.sub(lambda place: drawn[int(place[1])], page)
+        return _PLACEHOLDER.sub(lambda place: drawn[int(place[1])], page)
 
 
 def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_figures: PageFigures) -> str:
@@ -75,8 +75,8 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
 
     Many figures are distributed over forked processes, on Linux and only if this process has no other threads.
     """
-    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MANY
-    count = min(count_available_threads(), len(figures) // FEW) if forks else 1
+    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MIN_FIGURES_FOR_PROCESSES
+    count = min(count_available_threads(), len(figures) // MIN_FIGURES_PER_PROCESS) if forks else 1
     others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
     drawn = [""] * len(figures)
     try:
@@ -143,7 +143,7 @@ def _convert_to_svg(ax: Axes, name: str) -> str:
         canvas = FigureCanvasSVG(figure)
         _apply_layout(figure)
         canvas.print_svg(target, metadata={"Date": None, "Creator": None})
-    svg = _AROUND.sub("", target.getvalue().decode())
+    svg = _NON_SVG.sub("", target.getvalue().decode())
     return _IDS.sub(lambda own: f"{own[1]}{name}-", svg)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.files.free_space import format_size
 from gudgeon.language.text_output import escape_invisible, format_count, format_path, print_json
-from gudgeon.studies.ensemble.claim_tables import FILE, read_claims_json
+from gudgeon.studies.ensemble.claim_tables import CLAIMS_FILE, read_claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
@@ -19,7 +19,7 @@ from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import format_seconds, make_console, make_table
 
-MAX_KINDS = 8
+MAX_FAILURE_KINDS = 8
 MAX_TRENDS = 16  # trends that are printed one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
@@ -123,12 +123,12 @@ def _print_study(plan: Plan, study: Study) -> None:
         make_console().print(table)
     if study.failed:
         print(f"{study.failed} of {format_count(study.runs, 'run')} failed:")
-        for kind, count, message in itertools.islice(StudyData(study).iterate_failures(), MAX_KINDS):
+        for kind, count, message in itertools.islice(StudyData(study).iterate_failures(), MAX_FAILURE_KINDS):
             print(
                 f"  {count} × {escape_invisible(kind)}"
                 + f"\n    the first: {escape_invisible(message)}" * bool(message)
             )
-        if (more := len(study.failures) - MAX_KINDS) > 0:
+        if (more := len(study.failures) - MAX_FAILURE_KINDS) > 0:
             print(f"  and {more} other reasons")
     for note in study.notes:
         print(f"note: {escape_invisible(note)}")
@@ -152,7 +152,7 @@ def _print_claims(study: Study) -> None:
                 "\n".join(f"{name} {verdict}: {escape_invisible(str(says[name]))}" for name, verdict in message.items())
             )
     print("\n".join(map(escape_invisible, claims.totals())))
-    print(f"wrote {format_path(Path(study.folder) / FILE)}")
+    print(f"wrote {format_path(Path(study.folder) / CLAIMS_FILE)}")
 
 
 def _iterate_measure_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:

@@ -21,9 +21,12 @@ if TYPE_CHECKING:
 
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"
-MOST_TICKS, MOST_LETTERS = 8, 40  # values at an axis; letters of the text of a zip's index
-MANY_COLUMNS, MOST_SAID = 4, 60  # parameters of a zip from which on only differences are shown; their letters
-MANY = ("start", "draw", "ensemble")  # dimensions over which statistics are computed
+MAX_WRITTEN_TICKS, MAX_ZIP_TEXT_LENGTH = 8, 40  # values at an axis; letters of the text of a zip's index
+MIN_COLUMNS_FOR_CHANGES, MAX_CHANGES_LENGTH = (
+    4,
+    60,
+)  # parameters of a zip from which on only differences are shown; their letters
+POOLED_DIMENSIONS = ("start", "draw", "ensemble")  # dimensions over which statistics are computed
 
 
 class StudyData:
@@ -163,15 +166,15 @@ class StudyData:
         a single run.
         """
         dims = [str(dim) for dim in variable.dims]
-        numbers = [dim for dim in dims if dim not in MANY and self._is_number(dim)]
+        numbers = [dim for dim in dims if dim not in POOLED_DIMENSIONS and self._is_number(dim)]
         if not dims:
             raise BadValueError("the study has one run here: there is nothing to draw it over")
-        words = [dim for dim in dims if dim not in MANY]
+        words = [dim for dim in dims if dim not in POOLED_DIMENSIONS]
         return next(iter(numbers), next((dim for dim in words if dim != "scene"), next(iter(words), dims[0])))
 
     def is_ordered_number(self, name: str) -> bool:
         """Return whether a coordinate is an ordered number, so that a line may connect its values."""
-        return self._is_number(name) and name not in MANY and not self._is_zip(name)
+        return self._is_number(name) and name not in POOLED_DIMENSIONS and not self._is_zip(name)
 
     def _is_zip(self, name: str) -> bool:
         """Return whether a coordinate is the index of a zip of parameters."""
@@ -213,7 +216,7 @@ class StudyData:
         if values.dtype.kind in "OU":
             return np.arange(len(values)), self.get_title(name), [self.get_title(value) for value in values]
         factor, shown = choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.get_unit(name))
-        ticks = list(self.get_written_values(name)) if len(values) <= MOST_TICKS else []
+        ticks = list(self.get_written_values(name)) if len(values) <= MAX_WRITTEN_TICKS else []
         return (
             values * factor,
             format_label(self.get_title(name), "" if ticks else shown),
@@ -281,8 +284,8 @@ class StudyData:
                 )
         whole = [", ".join(row) for row in zip(*columns, strict=True)]
         for words, most in (
-            (whole, MOST_LETTERS if len(columns) < MANY_COLUMNS else 0),
-            (describe_changes(columns), MOST_SAID),
+            (whole, MAX_ZIP_TEXT_LENGTH if len(columns) < MIN_COLUMNS_FOR_CHANGES else 0),
+            (describe_changes(columns), MAX_CHANGES_LENGTH),
         ):
             if words and max(map(len, words)) <= most and len(set(words)) == len(words):
                 return words
@@ -352,9 +355,9 @@ class StudyData:
         there.
         """
         variable = self.dataset[name]
-        dims = [str(dim) for dim in variable.dims if dim not in MANY]
+        dims = [str(dim) for dim in variable.dims if dim not in POOLED_DIMENSIONS]
         words = {dim: self.format_value_labels(dim)[0] for dim in dims}
-        values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in MANY)).values
+        values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in POOLED_DIMENSIONS)).values
         for where in np.ndindex(values.shape[: len(dims)]):
             yield {dim: words[dim][k] for dim, k in zip(dims, where, strict=True)}, np.ravel(values[where])
 

@@ -22,13 +22,13 @@ from gudgeon.results.reports.html_page import (
 )
 from gudgeon.studies.show.claims import build_claims_sections
 from gudgeon.studies.show.pictures import CaptionedFigure, PageFigures, format_gallery
-from gudgeon.studies.show.study_data import MANY, StudyData
+from gudgeon.studies.show.study_data import POOLED_DIMENSIONS, StudyData
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
-MAX_ROWS, MOST_NUMBERS, MOST_SAMPLES = 500, 30_000_000, 20_000
-SHOWN_VALUES = 8  # of what varied, in full
+MAX_ROWS, MAX_SERIES_VALUES, MAX_SERIES_SAMPLES = 500, 30_000_000, 20_000
+MAX_SHOWN_VALUES = 8  # of what varied, in full
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def _describe_counts(data: StudyData) -> str:
 def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
     """Yield a table row for each varied coordinate: title, dimensions, values, unit, meaning.
 
-    More than SHOWN_VALUES numbers are shown by the smallest and the largest.
+    More than MAX_SHOWN_VALUES numbers are shown by the smallest and the largest.
     """
     for name, coordinate in data.dataset.coords.items():
         if name in ("time", "sample"):
@@ -151,7 +151,7 @@ def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
             yield data.get_title(name), over, _list_values(list(written)), "", message
             continue
         factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
-        is_short = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
+        is_short = len(values) <= MAX_SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         shown_values = values if is_short or not values.size else np.array([values.min(), values.max()])
         words = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
         listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} of them"
@@ -159,8 +159,8 @@ def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
 
 
 def _list_values(words: list[str]) -> str:
-    """Return up to SHOWN_VALUES texts joined by commas; of more the first, the last and their number."""
-    return ", ".join(words) if len(words) <= SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} of them"
+    """Return up to MAX_SHOWN_VALUES texts joined by commas; of more the first, the last and their number."""
+    return ", ".join(words) if len(words) <= MAX_SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} of them"
 
 
 def _format_measure_table(data: StudyData) -> str:
@@ -175,8 +175,8 @@ def _format_measure_table(data: StudyData) -> str:
     dims, units, has_spread = [], [], False
     for name in names:
         shape = data.dataset[name]
-        dims = [str(dim) for dim in shape.dims if dim not in MANY]
-        has_spread = any(dim in MANY for dim in shape.dims)
+        dims = [str(dim) for dim in shape.dims if dim not in POOLED_DIMENSIONS]
+        has_spread = any(dim in POOLED_DIMENSIONS for dim in shape.dims)
         factor, unit = choose_plot_unit(
             float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.get_unit(name)
         )
@@ -189,7 +189,7 @@ def _format_measure_table(data: StudyData) -> str:
             rows.setdefault(key, []).append(_format_spread(values * factor, has_spread))
     head = [data.format_value_labels(dim)[1] for dim in dims]
     head += [format_label(data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
-    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in MANY]
+    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in POOLED_DIMENSIONS]
     message = [
         f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"
     ] * has_spread
@@ -228,7 +228,7 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
             f"{data.get_title(name)}: {_describe_pooled_runs(data, variable)}",
             partial(plot.measure, name, published=True),
         )
-        varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in MANY]
+        varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in POOLED_DIMENSIONS]
         if len(varied) < 2:
             continue
         for scene in [str(dim) for dim in data.dataset["scene"].values] if "scene" in variable.dims else [""]:
@@ -258,7 +258,7 @@ def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
     plot = StudyPlot(data.study)
     for name in data.stored_series:
         variable = data.dataset[name]
-        if variable.size > MOST_NUMBERS or variable.shape[-1] > MOST_SAMPLES or not variable.size:
+        if variable.size > MAX_SERIES_VALUES or variable.shape[-1] > MAX_SERIES_SAMPLES or not variable.size:
             continue
         t, _ = data.select_series(name)
         runs = variable.size // variable.shape[-1]

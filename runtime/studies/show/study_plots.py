@@ -30,11 +30,14 @@ if TYPE_CHECKING:
 
     from gudgeon.studies.ensemble.finished import Study
 
-SMALL = 80  # largest number of cells of a map with legible numbers
-COLUMNS, ROWS = 14, 24  # of a heat map, that have words at its axes
-BESIDE = 0.5  # fraction of the width of a tick in which its dots are side by side
-QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
-AXIS, LINE = 60, 22  # letters that fit side by side under a figure; letters of a line there
+MAX_LABELLED_CELLS = 80  # largest number of cells of a map with legible numbers
+MAX_X_TICKS, MAX_Y_TICKS = 14, 24  # of a heat map, that have words at its axes
+BAR_GROUP_WIDTH = 0.5  # fraction of the width of a tick in which its dots are side by side
+FIVE_NUMBER_LEVELS = (0.0, 0.25, 0.5, 0.75, 1.0)
+MAX_TICK_ROW_LENGTH, MAX_TICK_LINE_LENGTH = (
+    60,
+    22,
+)  # letters that fit side by side under a figure; letters of a line there
 
 
 class StudyPlot:
@@ -84,7 +87,9 @@ class StudyPlot:
                     draw_band(ax, x, quantiles, colour, message)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), quantiles, colour, message)
+                    draw_bars(
+                        ax, x + BAR_GROUP_WIDTH * (k - 0.5 * (len(parts) - 1)) / len(parts), quantiles, colour, message
+                    )
             draw_published_values(ax, claimed, factor, choose_colours(len(parts)))
             ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
             set_ticks(ax, x, ticks)
@@ -319,13 +324,13 @@ class StudyPlot:
             factor, unit = choose_plot_unit(find_largest_magnitude(middle), values.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
             (words, x_label), (others, y_label) = (self.data.format_value_labels(name_of) for name_of in (x, y))
-            below, beside = select_tick_indices(len(words), COLUMNS), select_tick_indices(len(others), ROWS)
+            below, beside = select_tick_indices(len(words), MAX_X_TICKS), select_tick_indices(len(others), MAX_Y_TICKS)
             set_ticks(ax, below, [words[k] for k in below])
-            ax.set_yticks(beside, [format_figure_title(others[k], LINE) for k in beside])
+            ax.set_yticks(beside, [format_figure_title(others[k], MAX_TICK_LINE_LENGTH) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=format_label(self.data.get_title(name), unit))
-            if middle.size <= SMALL:
+            if middle.size <= MAX_LABELLED_CELLS:
                 write_cell_values(ax, middle * factor, image)
             self._set_title_and_legend(ax, at, False)
         return ax
@@ -351,7 +356,7 @@ def _convert_to_dict(published: Any) -> dict[Any, Any]:
         raise_bad_value("published", published, "{coordinate: number}, or True")
 
 
-def compute_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = QUARTILES) -> Any:
+def compute_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = FIVE_NUMBER_LEVELS) -> Any:
     """Return quantiles (len(fractions), …) over the first axis of `rows`, without values that are not finite.
 
     fractions: 0 for the minimum to 1 for the maximum. NaN where no value is finite.
@@ -407,9 +412,9 @@ def set_ticks(ax: Axes, x: Any, tick_texts: list[str] | None) -> None:
     """Set texts at the x axis, wrapped, and slanted if they would not fit; None changes nothing."""
     if tick_texts is None:
         return
-    lines = [format_figure_title(word, LINE) for word in tick_texts]
+    lines = [format_figure_title(word, MAX_TICK_LINE_LENGTH) for word in tick_texts]
     ax.set_xticks(x, lines)
-    if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > AXIS:
+    if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > MAX_TICK_ROW_LENGTH:
         ax.tick_params(axis="x", rotation=30.0, labelsize=7)
         for word in ax.get_xticklabels():
             word.set(ha="right", rotation_mode="anchor")

@@ -14,7 +14,7 @@ from gudgeon.language.text_output import format_one_line
 from gudgeon.results.series import apply_low_pass, compute_spectrum
 
 TIME_TOL = 0.01  # of the time between two samples: so far apart, samples are of the same time
-SAME = 1e-9  # tolerance of fractions of a run that count as equal
+FRACTION_TOL = 1e-9  # tolerance of fractions of a run that count as equal
 
 
 def have_equal_times(times: Any) -> bool:
@@ -40,7 +40,7 @@ def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
         values, series.values.reshape(times.shape), times, fractions_of_runs, strict=True
     ):
         y = x[np.isfinite(row)]
-        if len(run_fractions) == len(fractions) and np.allclose(run_fractions, fractions, rtol=0.0, atol=SAME):
+        if len(run_fractions) == len(fractions) and np.allclose(run_fractions, fractions, rtol=0.0, atol=FRACTION_TOL):
             out[:] = y
         elif len(run_fractions) and (good := np.isfinite(y)).any():
             out[:] = np.interp(fractions, run_fractions[good], y[good], left=np.nan, right=np.nan)
