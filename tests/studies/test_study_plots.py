@@ -137,7 +137,7 @@ def test_bands_over_shares_are_of_the_same_share_of_each_run(tmp_path: Path) -> 
     assert np.ptp(runs[:, 0], axis=0).max() < 2 * atol and np.isnan(runs[:, 1]).all()
     with pytest.raises(BadValueError, match="no run has a length"):
         turn.plot.bands("load.x", share=True, at={"bodies.load.mass": -1})
-    assert "over shares" in turn.report().to_html()
+    assert "over fractions of the run" in turn.report().to_html()
 
 
 def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
@@ -216,7 +216,7 @@ def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
             call(plots(study))
     with pytest.raises(BadValueError, match="does not vary"):
         plots(study).measure("fast", "scene")
-    with pytest.raises(UnknownNameError, match="kept no series 'load.y'"):
+    with pytest.raises(UnknownNameError, match="stored no series 'load.y'"):
         study.to_dataframe("load.y")
 
 

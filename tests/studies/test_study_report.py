@@ -88,7 +88,7 @@ def test_a_page_has_the_studys_numbers(folder: Path, page: str) -> None:
 def test_it_is_whole_by_itself_and_what_it_quotes_is_text(page: str) -> None:
     pictures = check(page)
     assert len(pictures) >= 4 and "&lt;script&gt;alert(1)&lt;/script&gt;" in page
-    for name in ("What varied", "Failed runs", "Measures", "Figures", "Series"):
+    for name in ("Varied quantities", "Failed runs", "Measures", "Figures", "Series"):
         assert f"<h2>{name}</h2>" in page
     assert "prefers-color-scheme: dark" in page and "@media print" in page and "width=device-width" in page
 
@@ -155,13 +155,16 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
     parts = {name: StudyData(study) for name in whole.parts}
     (heading, inside), (trends, judgement), (ours, alone) = build_claims_sections(whole, parts, PageFigures())
-    assert (heading, trends, ours) == ("Published numbers", "Published trends", "Ours alone")
+    assert (heading, trends, ours) == ("Published numbers", "Published trends", "Computed only")
     assert "&lt;i&gt;peak" in inside
     cells = "2.5 mm", "2 mm (1.9 … 2.1)", "3 mm (2 … 4)", "−20.0 … +20.0 %"
     assert "".join(f"<td>{cell.replace(' mm', chr(160) + 'mm')}</td>" for cell in cells) in inside
     assert "<td>c 0.3 mm</td><td>one</td><td>2\u00a0mm, +4.2 %</td>" in alone  # in no ensemble, beside another
     assert inside.count("<figure>") == 1 and "Fig 3: peak" in inside and "not drawn" not in inside
-    assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
+    assert (
+        "ensembles disagree: near holds, far fails" in judgement
+        and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
+    )
     assert "a paper &amp; more" in inside and "a &amp; b" in inside
     page = StudyReport(whole).to_html()
     check(page)
@@ -229,7 +232,7 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
     ax: Any = draw()
     assert [word.get_text() for word in ax.get_xticklabels()] == ["N1\none place", "D1\none place"]
     labels = [word.get_text() for word in ax.get_legend().get_texts()]
-    assert sorted(labels) == ["near", "ours, one run", "printed", "wide"]
+    assert sorted(labels) == ["computed, one run", "near", "printed", "wide"]
 
 
 def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:
