@@ -190,7 +190,7 @@ def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(tmp_path: Path, mo
     """As mechanisms are; a file of that name in the folder counts before it."""
     monkeypatch.chdir(tmp_path)
     plans = resolve_plans("lubricated_10000")
-    assert plans.each[""].runs == 10_000
+    assert plans.by_part[""].runs == 10_000
     with pytest.raises(UnknownNameError, match="did you mean 'chen_2022'"):
         resolve_plans("chen_2023")
     with pytest.raises(UnknownNameError, match="no study 'jansen_leg_play'"):  # a mechanism that one brings along
@@ -198,7 +198,7 @@ def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(tmp_path: Path, mo
     with pytest.raises(InputError, match="cannot read"):
         resolve_plans("chen_2022.yaml")
     Path("lubricated_10000").write_text("format: gudgeon-study/1\nmechanism: pendulum\nmeasures: {x: {final: bob.x}}\n")
-    assert resolve_plans("lubricated_10000").each[""].runs == 1
+    assert resolve_plans("lubricated_10000").by_part[""].runs == 1
 
 
 @needs_compiler
@@ -237,18 +237,21 @@ def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
         "titles": {"g": "gravity"},
     }
     own, less = (
-        resolve_plans(study).each[""],
-        resolve_plans(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""],
+        resolve_plans(study).by_part[""],
+        resolve_plans(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).by_part[""],
     )
     assert own.dims == ("g", "draw") and less.dims == ("draw",) and less.fixed == {"parameters.g": 3.0, "length": 5.0}
-    assert set(less.numbers[0].columns) == {"bodies.bob.mass"}
-    assert (less.numbers[0].columns["bodies.bob.mass"] == own.numbers[1].columns["bodies.bob.mass"]).all()
+    assert set(less.parameter_dimensions[0].columns) == {"bodies.bob.mass"}
+    assert (
+        less.parameter_dimensions[0].columns["bodies.bob.mass"]
+        == own.parameter_dimensions[1].columns["bodies.bob.mass"]
+    ).all()
     assert less.notes == (
         "g is set for all runs, over the 3 values that the file has for it",
         "length is set for all runs, over the 4 values that the file has for it",
     )
-    assert resolve_plans(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
+    assert resolve_plans(study, {"length": 5, "bodies.bob.mass": 3}).by_part[""].dims == ("g",)
     both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}
     both["zip"] = {"pair": {"g": [1, 2], "length": [3, 4]}}
-    assert resolve_plans(both, {"g": 3}).each[""].dims == ("pair",)
-    assert resolve_plans(both, {"g": 3, "length": 1}).each[""].dims == ()
+    assert resolve_plans(both, {"g": 3}).by_part[""].dims == ("pair",)
+    assert resolve_plans(both, {"g": 3, "length": 1}).by_part[""].dims == ()

@@ -169,7 +169,7 @@ def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tupl
     study = {"mechanism": "slider_crank", "parameters": {"omega": row}, "measures": {"x": {"max": "slider.x"}}}
     plans = resolve_plans(study)
     assert collect_names(plans).values[""].get("omega", ()) == shown
-    for text, omega in zip(shown, plans.each[""].numbers[0].columns["omega"], strict=False):
+    for text, omega in zip(shown, plans.by_part[""].parameter_dimensions[0].columns["omega"], strict=False):
         message = text.replace("2.4·10²", "240").replace("π", "*pi")
         number, _, unit = message.partition(" ")
         value = float(number.removesuffix("*pi") or 1) * (math.pi if "pi" in message else 1.0)

@@ -66,7 +66,7 @@ class RunSettings:
     rtol: float | None
     stop: bool
     wear: WearModel | None = None
-    rounds: int = 0  # of wear before the runs that are measured
+    wear_rounds: int = 0  # of wear before the runs that are measured
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,15 +79,15 @@ class Job:
     scene: str
     overrides: tuple[tuple[str, str], ...]
     sha256: str
-    number: int  # of the block
-    first: int  # run of the study
-    n: int  # how many
+    block_number: int
+    first_run: int  # index in the study
+    n_runs: int
     columns: Mapping[str, Array]
     relative: Mapping[str, Array]
     absolute: Mapping[str, Array]
     run_settings: RunSettings
     threads: int | None
-    later: int = 0  # runs of the same scene in later blocks
+    n_later_runs: int = 0  # runs of the same scene in later blocks
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +95,7 @@ class Block:
     """Results of n runs; `t` is (N,) if all runs that began have the same times, else (n, N)."""
 
     number: int
-    first: int
+    first_run: int  # index in the study
     measures: Mapping[str, Array]  # (n,)
     failures: tuple[str, ...]  # why a run failed, "" where it did not
     t_last: Array  # (n,) s, NaN: it did not begin
@@ -118,10 +118,10 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     """
     simulation = simulation or load_library(job.mechanism, job.scene, job.overrides, job.sha256)
     table = RunTable(simulation, job)
-    failures = [table.invalid_runs.get(i, "") for i in range(job.n)]
-    valid_runs = np.array([i for i in range(job.n) if i not in table.invalid_runs], dtype=int)
+    failures = [table.invalid_runs.get(i, "") for i in range(job.n_runs)]
+    valid_runs = np.array([i for i in range(job.n_runs) if i not in table.invalid_runs], dtype=int)
     collector = _Collector(job, table)
-    with collect_guess_notes(simulation.source, job.first) as guess_notes, announce_later_runs(job.later):
+    with collect_guess_notes(simulation.source, job.first_run) as guess_notes, announce_later_runs(job.n_later_runs):
         try:
             if len(valid_runs):
                 collector.add_batch(valid_runs, _run_batch(simulation, job, table, valid_runs, progress), failures)
@@ -155,10 +155,10 @@ class RunTable:
         self.columns = {
             key: values for name, values in job.columns.items() if (key := find_parameter_key(self.source, name))
         }
-        self.p, errors = self._prepare_parameter_vectors(job.n)
+        self.p, errors = self._prepare_parameter_vectors(job.n_runs)
         if perturbed_columns := self._compute_perturbed_parameters(job):
             self.columns |= perturbed_columns
-            self.p, errors = self._prepare_parameter_vectors(job.n)
+            self.p, errors = self._prepare_parameter_vectors(job.n_runs)
         self.invalid_runs |= {i: str(error) for i, error in errors.items() if i not in self.invalid_runs}
         self.t_end = self._evaluate_end_times(settings.t_end)
         values_by_name = {"t_end": self.t_end}
@@ -184,7 +184,7 @@ class RunTable:
             base, key, zero = (
                 self.p[:, index_of_address[parameter.address]],
                 find_parameter_key(self.source, name),
-                np.zeros(job.n),
+                np.zeros(job.n_runs),
             )
             deviation = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
             parameters[key] = parameters.get(key, base) + deviation  # another ensemble may spell it otherwise
@@ -317,7 +317,9 @@ def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, p
         "stop": settings.stop,
     }
     parameters = parameters or [{}] * len(runs)
-    contour, progress = run_wear_rounds(simulation, settings.wear, settings.rounds, parameters, ends, options, progress)
+    contour, progress = run_wear_rounds(
+        simulation, settings.wear, settings.wear_rounds, parameters, ends, options, progress
+    )
     batch = simulation.simulate_many(
         parameters,
         t_end,
@@ -344,7 +346,7 @@ class _Collector:
 
     def __init__(self, job: Job, table: RunTable) -> None:
         """Create NaN measures and end times for all runs of a job."""
-        self.job, self.table, n = job, table, job.n
+        self.job, self.table, n = job, table, job.n_runs
         self.measures = {measure.name: np.full(n, np.nan) for measure in job.run_settings.measures}
         self.t_last = np.full(n, np.nan)
         self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
@@ -371,7 +373,9 @@ class _Collector:
         has_begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)
         notes_by_run = batch.result.notes()
-        self.notes.append(group_notes((self.job.first + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run)))
+        self.notes.append(
+            group_notes((self.job.first_run + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run))
+        )
         if self.job.run_settings.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
@@ -387,8 +391,8 @@ class _Collector:
         """
         job, keep = self.job, self.job.run_settings.keep
         N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
-        t = np.full((job.n, N), np.nan)
-        series = {name: np.full((job.n, N), np.nan) for name in keep}
+        t = np.full((job.n_runs, N), np.nan)
+        series = {name: np.full((job.n_runs, N), np.nan) for name in keep}
         for runs, requested, kept in self.kept:
             used = kept["t"]
             t[runs, : used.shape[1]] = np.where(np.isnan(used), requested, used)
@@ -400,7 +404,7 @@ class _Collector:
         if np.array_equal(t[began], np.broadcast_to(common, t[began].shape)):
             t = common
         notes = merge_notes(self.notes)
-        return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)
+        return Block(job.block_number, job.first_run, self.measures, tuple(failures), self.t_last, t, series, notes)
 
 
 def resolve_wear_model(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel:

@@ -186,7 +186,7 @@ class _FinishedRuns:
 
     def _list_ensemble_names(self, part: str) -> list[str]:
         """Return the names of the ensembles along the dimension `ensemble` of a part; empty if it has none."""
-        plan = self.plans.each[part]
+        plan = self.plans.by_part[part]
         return [
             str(name) for coordinate in plan.coordinates if coordinate.name == "ensemble" for name in coordinate.values
         ]
@@ -197,7 +197,7 @@ class _FinishedRuns:
         If the cell does not have this ensemble, all its runs are returned. The array of the part is read once and
         cached.
         """
-        plan, key = self.plans.each[cell.part], (cell.part, measure)
+        plan, key = self.plans.by_part[cell.part], (cell.part, measure)
         if key not in self.cached_values:
             part_study = self.study.parts[cell.part] if self.plans.named else self.study
             self.cached_values[key] = np.asarray(part_study.dataset[measure].transpose(*plan.dims).values, dtype=float)
@@ -226,7 +226,7 @@ def _judge_number(
             others = finished_runs.read_values(cells[claim.beside], str(claim.measure), ensemble)
             base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
         deviation = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
-        plan = finished_runs.plans.each[number.cell.part]
+        plan = finished_runs.plans.by_part[number.cell.part]
         yield {
             "claim": str(claim.name),
             "figure": claim.figure,
@@ -293,7 +293,7 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
         return
     cells = list(dict.fromkeys(cell for check in trend.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in trend.checks for name in check.measures))
-    certain_cells = [cell for cell in cells if "start" not in finished_runs.plans.each[cell.part].dims]
+    certain_cells = [cell for cell in cells if "start" not in finished_runs.plans.by_part[cell.part].dims]
     judged_by_ensemble, ensembles = {}, finished_runs.list_ensembles(cells)
     shared_cells = [cell for cell in cells if not finished_runs.has_separate_runs(cell, ensembles)]
     for ensemble in ensembles:
@@ -321,7 +321,7 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
 
 def _has_measure(finished_runs: _FinishedRuns, cell: RunCell, measure: str) -> bool:
     """Return whether the part that a cell belongs to has a measure of this name."""
-    return any(expected.name == measure for expected in finished_runs.plans.each[cell.part].run_settings.measures)
+    return any(expected.name == measure for expected in finished_runs.plans.by_part[cell.part].run_settings.measures)
 
 
 def _replace_nonfinite(value: float | None) -> float | None:

@@ -203,13 +203,13 @@ def _resolve_selection(plans: Plans, selection: Selection) -> ResolvedSelection:
     part, where = "", selection.where.where
     if plans.named:
         if selection.part is None:
-            raise UnknownKeyError("a claim on no part", where, f"expected part: one of {', '.join(plans.each)}")
+            raise UnknownKeyError("a claim on no part", where, f"expected part: one of {', '.join(plans.by_part)}")
         part = str(selection.part)
-        if part not in plans.each:
-            raise make_unknown_name_error("part", part, list(plans.each), selection.part.where)
+        if part not in plans.by_part:
+            raise make_unknown_name_error("part", part, list(plans.by_part), selection.part.where)
     elif selection.part is not None:
         raise BadValueError("the file has no parts", selection.part.where, "leave part: out")
-    plan = plans.each[part]
+    plan = plans.by_part[part]
     indices_by_dimension = {name: tuple(range(length)) for name, length in zip(plan.dims, plan.shape, strict=True)}
     for name, value in selection.at.items():
         coordinate = _find_coordinate(plan, name)
@@ -440,7 +440,7 @@ def _make_interval_condition(
 
 def _build_count_check(selection: ResolvedSelection, statement: TrendStatement) -> Check:
     """Return the check that scenes have the claimed numbers of components, which is the same in every run."""
-    structure = [coordinate.length for coordinate in selection.plan.structure]
+    structure = [coordinate.length for coordinate in selection.plan.structure_dimensions]
     indices_by_dimension = [cell.index[: len(structure)] for _, cell in selection.iterate_cells({})]
     parts = {
         int(np.ravel_multi_index(cell_index, structure)) if structure else 0 for cell_index in indices_by_dimension

@@ -93,10 +93,10 @@ def compute_neighbour_measures(
     measures. `progress` is called meanwhile.
     """
     measures = [measure for measure in job.run_settings.measures if measure.statistic in NEIGHBOUR_STATISTICS]
-    values = {measure.name: np.full(job.n, np.nan) for measure in measures}
+    values = {measure.name: np.full(job.n_runs, np.nan) for measure in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return values
-    runs = [i for i in range(job.n) if not failures[i]]
+    runs = [i for i in range(job.n_runs) if not failures[i]]
     computation = _NeighbourComputation(simulation, job, table, t_last, progress)
     with ThreadPoolExecutor(job.threads or count_available_threads(), thread_name_prefix="gudgeon") as pool:
         for i, values_or_reason in zip(runs, pool.map(lambda i: computation(i, measures), runs), strict=True):
@@ -129,7 +129,7 @@ class _NeighbourComputation:
         followed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
         with collect_guess_notes(
-            self.simulation.source, self.job.first
+            self.simulation.source, self.job.first_run
         ):  # notes of the run itself are reported already
             try:
                 for measure in measures:

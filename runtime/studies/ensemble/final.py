@@ -79,7 +79,7 @@ def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
     )
     failures = tuple(message for block in blocks for message in block.failures)
     t_last, notes = np.concatenate([block.t_last for block in blocks]), merge_notes(block.notes for block in blocks)
-    return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
+    return Block(first.number, first.first_run, measures, failures, t_last, t, series, notes)
 
 
 def _find_common_times(folder: StudyFolder) -> tuple[Array, bool]:
@@ -128,7 +128,7 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_comm
         for block in _join_small_blocks(_read_blocks(folder)):
             _write_values(variables, plan, block, has_common_times)
             notes = merge_notes((notes, block.notes))
-            for run, why in enumerate(block.failures, block.first):
+            for run, why in enumerate(block.failures, block.first_run):
                 if why:
                     kinds[kind := get_message_kind(why)] += 1
                     first.setdefault(kind, run)
@@ -249,8 +249,8 @@ def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_commo
         began = ~np.isnan(block.t_last)[:, None]
         values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():
-        for index, rows in split_into_boxes(plan.shape, block.first, block.first + n):
-            column_part = column[rows.start - block.first : rows.stop - block.first]
+        for index, rows in split_into_boxes(plan.shape, block.first_run, block.first_run + n):
+            column_part = column[rows.start - block.first_run : rows.stop - block.first_run]
             shape = _compute_slice_shape(plan.shape, index)
             if column.ndim == 2:
                 variables[name][(*index, slice(0, column.shape[1]))] = column_part.reshape(*shape, column.shape[1])

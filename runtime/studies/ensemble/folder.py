@@ -40,8 +40,10 @@ class StudyFolder:
     def __init__(self, path: str | os.PathLike[str], plan: Plan) -> None:
         """Store path and plan without access to the disk."""
         self.path, self.plan = Path(path), plan
-        self.recent: dict[int, Block] = {}  # written here, and read again for the dataset, as long as they are small
-        self.held = 0  # bytes of these
+        self.recent_blocks: dict[
+            int, Block
+        ] = {}  # written here, and read again for the dataset, as long as they are small
+        self.recent_bytes = 0  # bytes of these
 
     @contextmanager
     def open_locked(self, restart: bool) -> Iterator[StudyFolder]:
@@ -83,7 +85,7 @@ class StudyFolder:
         for name in file_names:
             if PART.fullmatch(name):  # of a process that was killed
                 (self.path / name).unlink(missing_ok=True)
-        blocks = [part.block for part in self.plan.parts]
+        blocks = [part.block_runs for part in self.plan.parts]
         if old_manifest is not None and not restart:
             if old_manifest.get("said") != self.plan.input_description:
                 what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.input_description))
@@ -117,17 +119,17 @@ class StudyFolder:
         data = encode_block(block, self.plan.digest)
         with open_atomic(self._get_block_path(block.number), sync=True) as file:
             file.write(data)
-        if self.held + block.nbytes <= MAX_RECENT_BYTES:
-            self.recent[block.number] = block
-            self.held += block.nbytes
+        if self.recent_bytes + block.nbytes <= MAX_RECENT_BYTES:
+            self.recent_blocks[block.number] = block
+            self.recent_bytes += block.nbytes
 
     def read_block(self, number: int) -> Block | None:
         """Return a block, from memory or its file; None if it is missing, damaged or of another plan, so that it is
         run again.
         """
         path = self._get_block_path(number)
-        if number in self.recent and path.exists():
-            return self.recent[number]
+        if number in self.recent_blocks and path.exists():
+            return self.recent_blocks[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
             if (data := read_regular_file(path)) is not None:
                 return decode_block(data, self.plan, number)
@@ -279,7 +281,7 @@ def decode_block(data: bytes, plan: Plan, number: int) -> Block | None:
     by_name = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
     return Block(
         number,
-        description.part * plan.each + description.first,
+        description.part * plan.runs_per_part + description.first_run,
         by_name[0],
         tuple(failures),
         t_last,

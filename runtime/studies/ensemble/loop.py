@@ -32,13 +32,13 @@ class _StudyProgress:
 
     def __init__(self, runs: int, n_done: int, progress: Progress | None) -> None:
         """Begin with `n_done` of `runs` runs done; `progress` is None or the caller's progress function."""
-        self.runs, self.done, self.progress = runs, n_done, progress
+        self.runs, self.n_done, self.progress = runs, n_done, progress
         self.partial_runs: dict[int, float] = {}  # of running blocks by their number: fraction × runs
 
     def add_block(self, block: BlockRange) -> None:
         """Count the runs of a written block as done."""
         self.partial_runs.pop(block.number, None)
-        self.done += block.runs
+        self.n_done += block.runs
 
     def report_progress(self) -> None:
         """Call the progress function, if there is one, with the fraction of runs that are done and a text.
@@ -47,7 +47,7 @@ class _StudyProgress:
         """
         if self.progress:
             under_way = sum(self.partial_runs.copy().values())
-            self.progress((self.done + under_way) / self.runs, f"{self.done} of {self.runs} runs")
+            self.progress((self.n_done + under_way) / self.runs, f"{self.n_done} of {self.runs} runs")
 
 
 def finish_study(
@@ -67,7 +67,7 @@ def finish_study(
                 check_dataset(folder.path, plan.identity)
                 return
         study_progress = _StudyProgress(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
-        if study_progress.done:  # a bar measures its speed from here on
+        if study_progress.n_done:  # a bar measures its speed from here on
             study_progress.report_progress()
         try:
             if executor is None:

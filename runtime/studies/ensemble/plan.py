@@ -60,9 +60,9 @@ class Part:
     simulation: Simulation
     mechanism: str
     overrides: tuple[tuple[str, str], ...]
-    block: int = 1  # runs a block
-    samples: float = 1.0  # of a run on average, by those that were looked at
-    most: float = 1.0  # of the one of these that has most
+    block_runs: int = 1  # runs of a block
+    mean_samples: float = 1.0  # of a run, estimated from some of the runs
+    max_samples: float = 1.0  # of a run, estimated from the same runs
 
     @property
     def sha256(self) -> str:
@@ -75,8 +75,8 @@ class BlockRange(NamedTuple):
 
     number: int
     part: int
-    first: int  # run of the part
-    runs: int  # how many
+    first_run: int  # index in the part
+    runs: int  # number of runs
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,8 +84,8 @@ class Plan:
     """A study with resolved names; dimensions of structure come first, then those of parameters."""
 
     study: StudyFile
-    structure: tuple[StudyDimension, ...]
-    numbers: tuple[StudyDimension, ...]
+    structure_dimensions: tuple[StudyDimension, ...]
+    parameter_dimensions: tuple[StudyDimension, ...]
     fixed: Mapping[str, float | str]
     deviations: Deviations | None
     coordinates: tuple[Coordinate, ...]
@@ -97,43 +97,43 @@ class Plan:
     @property
     def shape(self) -> tuple[int, ...]:
         """Return the lengths of all dimensions, those of structure first."""
-        return tuple(coordinate.length for coordinate in (*self.structure, *self.numbers))
+        return tuple(dimension.length for dimension in (*self.structure_dimensions, *self.parameter_dimensions))
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Return the names of all dimensions, those of structure first."""
-        return tuple(coordinate.name for coordinate in (*self.structure, *self.numbers))
+        return tuple(dimension.name for dimension in (*self.structure_dimensions, *self.parameter_dimensions))
 
     @property
-    def each(self) -> int:
+    def runs_per_part(self) -> int:
         """Return the number of runs of each part."""
-        return math.prod(coordinate.length for coordinate in self.numbers)
+        return math.prod(coordinate.length for coordinate in self.parameter_dimensions)
 
     @property
     def runs(self) -> int:
         """Return the number of runs of all parts."""
-        return self.each * len(self.parts)
+        return self.runs_per_part * len(self.parts)
 
     @property
-    def count_of_blocks(self) -> int:
+    def n_blocks(self) -> int:
         """Return the number of blocks of all parts, computed without a list of them."""
-        return sum(-(-self.each // part.block) for part in self.parts)
+        return sum(-(-self.runs_per_part // part.block_runs) for part in self.parts)
 
     @cached_property
     def blocks(self) -> tuple[BlockRange, ...]:
         """Return all blocks, part by part, each with its range of runs."""
-        each = self.each
+        n_runs = self.runs_per_part
         ranges = (
-            (k, first, min(part.block, each - first))
+            (k, first, min(part.block_runs, n_runs - first))
             for k, part in enumerate(self.parts)
-            for first in range(0, each, part.block)
+            for first in range(0, n_runs, part.block_runs)
         )
         return tuple(BlockRange(number, *range_) for number, range_ in enumerate(ranges))
 
     def make_block_job(self, block: BlockRange, threads: int | None) -> Job:
         """Return the job of a block, which contains all that a process needs to run it; `threads` as in `study`."""
-        runs = np.arange(block.first, block.first + block.runs)
-        return self.make_job(block.number, block.part, runs, threads, self.each - block.first - block.runs)
+        runs = np.arange(block.first_run, block.first_run + block.runs)
+        return self.make_job(block.number, block.part, runs, threads, self.runs_per_part - block.first_run - block.runs)
 
     def make_job(
         self, block_number: int, part_index: int, runs: Array, threads: int | None, n_later_runs: int = 0
@@ -143,12 +143,14 @@ class Plan:
         block_number: of the block. runs: indices in the part. threads: None for the number of cores. n_later_runs:
         number of runs of the part in later blocks.
         """
-        part, shape = self.parts[part_index], tuple(coordinate.length for coordinate in self.numbers)
+        part, shape = self.parts[part_index], tuple(coordinate.length for coordinate in self.parameter_dimensions)
         index = np.unravel_index(runs, shape) if shape else ()
         columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
-        for coordinate, indices in zip(self.numbers, index, strict=True):
+        for coordinate, indices in zip(self.parameter_dimensions, index, strict=True):
             columns |= {name: values[indices] for name, values in coordinate.columns.items()}
-        by_name = {coordinate.name: indices for coordinate, indices in zip(self.numbers, index, strict=True)}
+        by_name = {
+            coordinate.name: indices for coordinate, indices in zip(self.parameter_dimensions, index, strict=True)
+        }
         relative, absolute = self._select_deviations(by_name, len(runs))
         return Job(
             part.mechanism,
@@ -156,7 +158,7 @@ class Plan:
             part.overrides,
             part.sha256,
             block_number,
-            part_index * self.each + int(runs[0]),
+            part_index * self.runs_per_part + int(runs[0]),
             len(runs),
             columns,
             relative,
@@ -204,7 +206,7 @@ class Plan:
     @cached_property
     def digest(self) -> str:
         """Return the SHA-256 of `input_description` and of the block sizes, by which files of blocks are recognised."""
-        return _compute_sha256([self.input_description, [part.block for part in self.parts]])
+        return _compute_sha256([self.input_description, [part.block_runs for part in self.parts]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,7 +214,7 @@ class Plans:
     """The plans of a study file: one for each of its parts, or one with the name ""."""
 
     file: StudySet
-    each: Mapping[str, Plan]
+    by_part: Mapping[str, Plan]
     claims: ResolvedClaims | None = None
 
     @property
@@ -223,7 +225,7 @@ class Plans:
     @property
     def runs(self) -> int:
         """Return the number of runs of all parts."""
-        return sum(plan.runs for plan in self.each.values())
+        return sum(plan.runs for plan in self.by_part.values())
 
 
 def check_study_size(study: StudyFile) -> None:

@@ -373,7 +373,7 @@ def _choose_block_size(plan: Plan, part_index: int) -> Part:
     The samples of a block fit into MAX_BLOCK_BYTES. The numbers of samples are estimated from at most N_SIZING_RUNS of
     the runs. part_index: of the part in the plan.
     """
-    runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, N_SIZING_RUNS)).astype(int))
+    runs = np.unique(np.linspace(0, plan.runs_per_part - 1, min(plan.runs_per_part, N_SIZING_RUNS)).astype(int))
     job: Job = plan.make_job(0, part_index, runs, None)
     counts = RunTable(plan.parts[part_index].simulation, job).output
     valid_counts = counts[~np.isnan(counts)] + 1.0
@@ -385,8 +385,8 @@ def _choose_block_size(plan: Plan, part_index: int) -> Part:
             plan.run_settings.measures, plan.run_settings.keep, plan.parts[part_index].simulation.source
         )
     )
-    block = int(max(1, min(MAX_BLOCK_RUNS, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
-    return replace(plan.parts[part_index], block=block, samples=mean_samples, most=max_samples)
+    block_runs = int(max(1, min(MAX_BLOCK_RUNS, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
+    return replace(plan.parts[part_index], block_runs=block_runs, mean_samples=mean_samples, max_samples=max_samples)
 
 
 def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> Array:

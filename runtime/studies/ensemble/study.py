@@ -147,9 +147,9 @@ def run_plans(
     """
     check_disk_and_memory(plans, folder, threads, executor is None)
     if plans.named:
-        create_parts_folder(folder, list(plans.each), restart)
+        create_parts_folder(folder, list(plans.by_part), restart)
     done = 0
-    for name, plan in plans.each.items():
+    for name, plan in plans.by_part.items():
 
         def report(fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done) -> None:
             """Report the progress of a part as a fraction of the whole study."""
@@ -159,7 +159,9 @@ def run_plans(
         with StudyFolder(folder / name, plan).open_locked(restart) as opened:
             finish_study(opened, threads, executor, report if progress else None)
         done += plan.runs
-    study = StudyOfParts(folder, list(plans.each), temporary_folder) if plans.named else Study(folder, temporary_folder)
+    study = (
+        StudyOfParts(folder, list(plans.by_part), temporary_folder) if plans.named else Study(folder, temporary_folder)
+    )
     write_names(folder, plans)
     if plans.claims is not None:
         write_claims(folder, plans, plans.claims, study)

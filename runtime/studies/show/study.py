@@ -36,10 +36,10 @@ def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], as_json: b
     estimates: by the name of the part, "" for a file without parts. For a file with parts, a line has the totals.
     """
     if as_json:
-        each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.each.items()}
+        each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.by_part.items()}
         print_json({"parts": each} if plans.named else each[""])
         return
-    for name, plan in plans.each.items():
+    for name, plan in plans.by_part.items():
         if name:
             print(f"part {escape_invisible(name)}:")
         _print_estimate(plan, estimates[name])
@@ -86,12 +86,12 @@ def report_studies(plans: Plans, study: Study, as_json: bool) -> None:
     """
     parts = study.parts or {"": study}
     if as_json:
-        each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.each.items()}
+        each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.by_part.items()}
         whole = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": each}
         claims = read_claims_json(study.folder)
         print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
         return
-    for name, plan in plans.each.items():
+    for name, plan in plans.by_part.items():
         if name:
             print(f"part {escape_invisible(name)}:")
         _print_study(plan, parts[name])
