@@ -391,7 +391,7 @@ measures: {x: {final: bob.x}}
     empty = text.replace("measures", "windows: {late: {from: 5 ms * (g) / (9.81 m/s^2) * 1.5, to: t_end}}\nmeasures")
     (tmp_path / "late.yaml").write_text(empty)  # of the second run it begins after its end
     done = call("study", "late.yaml")
-    assert "1 of 2 runs failed" in done.output and "window late goes from" in done.output, done.output
+    assert "1 of 2 runs failed" in done.output and "window late is from" in done.output, done.output
     done = call("study", "s.yaml", "--set", "g=3", "--out", "moon")  # over the row
     assert done.exit_code == 0 and "1 run" in done.output.splitlines() and "note: g is set" in done.output, done.output
     assert call("study", "s.yaml", "--set", "lenght=3").exit_code == 2

@@ -182,7 +182,7 @@ def test_foreign_folders_stay_as_they_are(tmp_path: Path) -> None:
             gudgeon.study(STUDY, tmp_path, restart=restart)
     with pytest.raises(OutputError):
         gudgeon.study(STUDY, tmp_path / "thesis.tex")
-    with pytest.raises(InputError, match="no folder of a study"):
+    with pytest.raises(InputError, match="not a study folder"):
         gudgeon.load_study(tmp_path)
     assert (tmp_path / "thesis.tex").read_text() == half.read_text() == "mine"
 

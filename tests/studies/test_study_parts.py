@@ -77,7 +77,7 @@ def test_it_goes_on_from_the_parts_that_are_there(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         gudgeon.study(tmp_path / "s.yaml", tmp_path / "s", progress=stop)
     before = (tmp_path / "s" / "planets" / "study.nc").stat().st_mtime_ns
-    with pytest.raises(InputError, match="lengths is not finished|no folder of a study"):
+    with pytest.raises(InputError, match="lengths is not finished|not a study folder"):
         (tmp_path / "s" / "lengths" / "study.nc").unlink(missing_ok=True)
         gudgeon.load_study(tmp_path / "s")
     found = gudgeon.study(tmp_path / "s.yaml", tmp_path / "s")
@@ -95,7 +95,7 @@ def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
     gudgeon.study(ALONE, tmp_path / "alone")
     with pytest.raises(InputError, match="a study without parts"):
         gudgeon.study(tmp_path / "s.yaml", tmp_path / "alone")
-    with pytest.raises(InputError, match="no folder of a study: it holds alone"):
+    with pytest.raises(InputError, match="is not a study folder: it contains alone"):
         gudgeon.study(tmp_path / "s.yaml", tmp_path)
     gudgeon.study(tmp_path / "s.yaml", tmp_path / "s")
     with pytest.raises(InputError, match="another study"):

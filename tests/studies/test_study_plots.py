@@ -135,7 +135,7 @@ def test_bands_over_shares_are_of_the_same_share_of_each_run(tmp_path: Path) -> 
     found: Any = resample_over_fractions(turn.dataset["t"].values, turn.dataset["load.x"])
     runs = found[1].values
     assert np.ptp(runs[:, 0], axis=0).max() < 2 * atol and np.isnan(runs[:, 1]).all()
-    with pytest.raises(BadValueError, match="no run has a length"):
+    with pytest.raises(BadValueError, match="no run has a duration"):
         turn.plot.bands("load.x", share=True, at={"bodies.load.mass": -1})
     assert "over fractions of the run" in turn.report().to_html()
 

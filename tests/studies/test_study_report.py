@@ -269,7 +269,7 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
     assert message.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
     for wrong, why in (
         (["report"], "of which study"),
-        (["report", "none.study"], "no folder of a study"),
+        (["report", "none.study"], "not a study folder"),
         (["mass.yaml", "x"], "takes one file"),
         (["mass.yaml", "--out", "x.html"], "a study is a folder"),
         (["report", str(folder), "--out", "page.txt"], "ends in .html"),

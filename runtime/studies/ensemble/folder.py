@@ -80,7 +80,7 @@ class StudyFolder:
         old_manifest = read_manifest(self.path)
         foreign = [name for name in file_names if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
         if old_manifest is None and foreign:
-            message = f"{shorten_path(self.path)} is no folder of a study: it holds {foreign[0]}"
+            message = f"{shorten_path(self.path)} is not a study folder: it contains {foreign[0]}"
             raise InputError(message, hint="name another folder")
         for name in file_names:
             if PART.fullmatch(name):  # of a process that was killed
@@ -161,7 +161,7 @@ def create_parts_folder(path: Path, part_names: Sequence[str], restart: bool) ->
     old_manifest = read_manifest(path)
     if file_names and old_manifest is None:
         raise InputError(
-            f"{shorten_path(path)} is no folder of a study: it holds {file_names[0]}", hint="name another folder"
+            f"{shorten_path(path)} is not a study folder: it contains {file_names[0]}", hint="name another folder"
         )
     if old_manifest is not None and "parts" not in old_manifest and not restart:
         hint = "begin anew with --restart (restart=True), or name another folder"

@@ -1,4 +1,4 @@
-"""Own the plan of a study: the table of its runs over the varied parameters, in blocks for single processes."""
+"""Own the plan of a study (design of experiments): its runs over the varied parameters, in blocks of one process."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MAX_RUNS, MAX_STRUCTURES = 100_000_000, 10_000
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """A coordinate: values over some dimensions of the study, SI, or names."""
+    """A coordinate of the dataset: values (SI or words) over the dimensions `over` of the study; () for a scalar."""
 
     name: str
     over: tuple[str, ...]
@@ -38,7 +38,7 @@ class Coordinate:
 
 @dataclass(frozen=True, eq=False)
 class StudyDimension:
-    """A dimension of a study: the parameters that vary along it by address, (length,) each."""
+    """A dimension of a study, with the values (length,) of each parameter that varies along it, by name."""
 
     name: str
     length: int
@@ -47,7 +47,7 @@ class StudyDimension:
 
 @dataclass(frozen=True, eq=False)
 class Deviations:
-    """Deviations of perturbed starts: relative and absolute (SI), (n_ensembles, n_starts) each."""
+    """Deviations of perturbed starts by parameter: relative and absolute (SI), (n_ensembles, n_starts) each."""
 
     relative: dict[str, Array]
     absolute: dict[str, Array]
@@ -55,7 +55,7 @@ class Deviations:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Runs of one scene with one structure, hence of one library."""
+    """Runs of one scene with one option of each choice of structure, which share one compiled library."""
 
     simulation: Simulation
     mechanism: str
@@ -71,17 +71,20 @@ class Part:
 
 
 class BlockRange(NamedTuple):
-    """The runs of a block: a range of the runs of a part."""
+    """The runs of a block: a range of the runs of a part (library)."""
 
     number: int
-    part: int
+    part: int  # index of the part
     first_run: int  # index in the part
     runs: int  # number of runs
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A study with resolved names; dimensions of structure come first, then those of parameters."""
+    """A study with resolved names: its runs are all combinations of its dimensions, in C order.
+
+    Dimensions of structure (scenes and choices) are first, then those of parameters and starts.
+    """
 
     study: StudyFile
     structure_dimensions: tuple[StudyDimension, ...]
@@ -116,7 +119,7 @@ class Plan:
 
     @property
     def n_blocks(self) -> int:
-        """Return the number of blocks of all parts, computed without a list of them."""
+        """Return the number of blocks of all parts."""
         return sum(-(-self.runs_per_part // part.block_runs) for part in self.parts)
 
     @cached_property
@@ -131,17 +134,17 @@ class Plan:
         return tuple(BlockRange(number, *range_) for number, range_ in enumerate(ranges))
 
     def make_block_job(self, block: BlockRange, threads: int | None) -> Job:
-        """Return the job of a block, which contains all that a process needs to run it; `threads` as in `study`."""
+        """Return the job of a block, a picklable description of its runs for a worker; `threads` as in `study`."""
         runs = np.arange(block.first_run, block.first_run + block.runs)
         return self.make_job(block.number, block.part, runs, threads, self.runs_per_part - block.first_run - block.runs)
 
     def make_job(
         self, block_number: int, part_index: int, runs: Array, threads: int | None, n_later_runs: int = 0
     ) -> Job:
-        """Return the job of any runs of part k with their parameters and deviations.
+        """Return the job of arbitrary runs of a part, with their parameters and deviations, (n_runs,) each.
 
-        block_number: of the block. runs: indices in the part. threads: None for the number of cores. n_later_runs:
-        number of runs of the part in later blocks.
+        runs: indices in the part, ascending. threads: None for the number of cores. n_later_runs: number of runs of the
+        part in later blocks. It is called for blocks and for trial runs.
         """
         part, shape = self.parts[part_index], tuple(coordinate.length for coordinate in self.parameter_dimensions)
         index = np.unravel_index(runs, shape) if shape else ()
@@ -171,9 +174,10 @@ class Plan:
     def _select_deviations(
         self, indices_by_dimension: Mapping[str, Array], n_runs: int
     ) -> tuple[dict[str, Array], dict[str, Array]]:
-        """Return relative and absolute deviations of runs by parameter, (n,) each; empty without perturbed starts.
+        """Return the relative and absolute deviations of runs by parameter, (n_runs,) each.
 
-        indices_by_dimension: indices of the runs along each dimension, (n_runs,) each.
+        indices_by_dimension: indices of the runs along each dimension, (n_runs,) each. Both are empty without perturbed
+        starts.
         """
         if self.deviations is None:
             return {}, {}
@@ -184,7 +188,10 @@ class Plan:
 
     @cached_property
     def input_description(self) -> dict[str, Any]:
-        """Return a description of all inputs of the results as JSON data; two studies are the same if it is equal."""
+        """Return all inputs of the results as JSON data: study file, version of gudgeon, digests of the libraries.
+
+        A folder belongs to this plan if its manifest has an equal description.
+        """
         import gudgeon
 
         parts = {
@@ -211,7 +218,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Plans:
-    """The plans of a study file: one for each of its parts, or one with the name ""."""
+    """The plans of a study file by part: one for each of its parts, or one with the name ""; and its claims."""
 
     file: StudySet
     by_part: Mapping[str, Plan]
@@ -229,9 +236,9 @@ class Plans:
 
 
 def check_study_size(study: StudyFile) -> None:
-    """Raise BadValueError at the longest dimension for too many runs or structures of a study.
+    """Raise BadValueError at the longest dimension if a study has more than MAX_RUNS runs or MAX_STRUCTURES structures.
 
-    The check needs no loaded mechanism. A structure is a scene with one option of each choice.
+    A structure is a scene with one option of each choice. It is called first, since it needs no loaded mechanism.
     """
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
@@ -242,12 +249,12 @@ def check_study_size(study: StudyFile) -> None:
         numbers.append((study.starts.count * len(study.starts.ensembles), start_name.where))
     loaded, runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *numbers])
     for count, most, several, what in (
-        (loaded, MAX_STRUCTURES, structures, "scenes with their choices, a library each"),
+        (loaded, MAX_STRUCTURES, structures, "scenes with their choices, one library each"),
         (runs, MAX_RUNS, [*structures, *numbers], "runs"),
     ):
         if count > most:
             where = max(several, key=lambda one: one[0])[1]
-            raise BadValueError(f"the study has {count} {what}", where, f"expected {most:.0e} at most")
+            raise BadValueError(f"the study has {count} {what}", where, f"expected at most {most:.0e}")
 
 
 def _compute_sha256(value: Any) -> str:
