@@ -125,7 +125,9 @@ def test_another_study_is_refused_with_what_differs(tmp_path: Path) -> None:
     other = STUDY | {"t_end": "30 ms", "measures": {"y": {"max": "bob.y"}}}
     with pytest.raises(InputError) as message:
         gudgeon.study(other, tmp_path)
-    assert "t_end was '20 ms', is '30 ms'" in str(message.value) and "measures.y.max was not said" in str(message.value)
+    assert "t_end was '20 ms', is '30 ms'" in str(message.value) and "measures.y.max was not specified" in str(
+        message.value
+    )
     assert "--restart" in str(message.value) and (tmp_path / "study.nc").exists()
     found = gudgeon.study(other, tmp_path, restart=True).dataset
     assert float(found["t_last"].max()) == 0.03 and "v" not in found

@@ -84,7 +84,7 @@ def test_it_goes_on_from_the_parts_that_are_there(tmp_path: Path) -> None:
     assert (tmp_path / "s" / "planets" / "study.nc").stat().st_mtime_ns == before and found.runs == 5
     changed = TEXT.replace("3 m]", "4 m]")
     (tmp_path / "s.yaml").write_text(changed)
-    with pytest.raises(InputError, match=r"lengths holds another study:\n  parameters.length\[2\] was '3 m'"):
+    with pytest.raises(InputError, match=r"lengths contains another study:\n  parameters.length\[2\] was '3 m'"):
         gudgeon.study(tmp_path / "s.yaml", tmp_path / "s")
     found = gudgeon.study(tmp_path / "s.yaml", tmp_path / "s", restart=True)
     assert found.parts["lengths"].dataset["length"].values.tolist() == [1.0, 2.0, 4.0]
