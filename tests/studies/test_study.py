@@ -331,7 +331,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
     assert document["failed"] == 4 and document["measures"]["x"]["nan"] == 4
     message = dict(zip(found.failures, found.first_failures.values(), strict=True))
     assert sorted(message.values()) == [1, 2] == [int(np.argmax(found.dataset["failure"].values.ravel() != "")), 2]
-    late = "t_end is -0.002 with this run's numbers: expected a positive time (s)"
+    late = "t_end is -0.002 with the parameters of this run: expected a positive time (s)"
     assert f"    the first: c = 0.1 mm, omega = −300 rpm: {late}" in done.output
     assert f"c = 0.1 mm, omega = −300 rpm: {late}" in document["first_failures"].values()
 

@@ -252,8 +252,8 @@ def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
         == own.parameter_dimensions[1].columns["bodies.bob.mass"]
     ).all()
     assert less.notes == (
-        "g is set for all runs, over the 3 values that the file has for it",
-        "length is set for all runs, over the 4 values that the file has for it",
+        "g is set for all runs, in place of 3 values in the study file",
+        "length is set for all runs, in place of 4 values in the study file",
     )
     assert resolve_plans(study, {"length": 5, "bodies.bob.mass": 3}).by_part[""].dims == ("g",)
     both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}

@@ -143,7 +143,10 @@ def test_the_command(tmp_path: Path, call: Gudgeon) -> None:
     document = json.loads(call("study", "s.yaml", "--json").output)
     assert document["runs"] == 5 and set(document["parts"]["lengths"]["measures"]) == {"x"}
     done = call("study", "s.yaml", "--set", "length=3 m", "--out", "t.study")  # one part varies it
-    assert done.exit_code == 0 and "note: length is set for all runs, over the 3 values that the file" in done.output
+    assert (
+        done.exit_code == 0
+        and "note: length is set for all runs, in place of 3 values in the study file" in done.output
+    )
     parts = gudgeon.load_study(tmp_path / "t.study").parts
     assert parts["planets"].runs == 2 and parts["lengths"].dataset["x"].dims == ()
     assert all(one.dataset["length"].values == 3.0 for one in parts.values())

@@ -1,4 +1,4 @@
-"""Compare the claims of a study file, published numbers and trends, with its runs; write two tables."""
+"""Compare the claims of a study file, published numbers and trends, with its runs, and write the results as tables."""
 
 from __future__ import annotations
 
@@ -29,24 +29,25 @@ if TYPE_CHECKING:
 CLAIMS_FILE, TABLE_NAMES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
 PROBABILITY_COLUMNS = ("probability", "low", "high", "chance")
+# verdict of one trend -> text for several trends
 VERDICT_PLURALS = {
     "holds": "hold",
     "fails": "fail",
     "undecided": "undecided",
     NOT_COMPUTED: NOT_COMPUTED,
-}  # of several: so
-NO_ENSEMBLE = ""  # the ensemble of runs that are in none
+}
+NO_ENSEMBLE = ""  # name of the ensemble of runs without named ensembles
 
 
 class JudgedClaims(NamedTuple):
     """Two tables of judged claims, with a row for each claim and ensemble.
 
-    numbers: claim, figure, says, part, at, place (of its scene along each dimension, JSON), measure, unit, printed,
-    ensemble, n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number in
-    `beside`), beside, note, heading (under which a page shows it). trends: claim, figure, says, heading, ensemble,
-    verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (verdict of this
-    ensemble), probability (the least of its checks) and its interval low to high, chance (that one run of each scene
-    shows all checks), agreed (whether no ensemble rules out the verdict of another), note.
+    numbers: claim, figure, says, part, at, place (index along each dimension, JSON), measure, unit, printed, ensemble,
+    n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number in `beside`),
+    beside, note, heading (of its section in the report). trends: claim, figure, says, heading, ensemble, verdict (of
+    all ensembles together: "holds", "fails", "undecided", "not computed"), alone (verdict of this ensemble),
+    probability (minimum over its checks) and its interval low to high, chance (that one run of each cell satisfies all
+    checks), agreed (whether no ensemble rules out the verdict of another), note.
     """
 
     numbers: pandas.DataFrame
@@ -54,10 +55,9 @@ class JudgedClaims(NamedTuple):
     source: str
 
     def totals(self) -> list[str]:
-        """Return lines of text: the numbers of trends by verdict for each heading, then the deviation from printed
-        numbers.
+        """Return summary lines: "13 trends: 8 hold, 2 fail" for each heading, then the deviation from printed numbers.
 
-        A claim counts once, whatever the number of its ensembles. Without printed numbers the last line is left out.
+        A claim with several ensembles counts once. Without printed numbers the last line is left out.
         """
         text_lines = []
         trends_by_claim = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
@@ -79,10 +79,10 @@ class JudgedClaims(NamedTuple):
 
 
 def _describe_deviations(printed_rows: pandas.DataFrame) -> str:
-    """Return a sentence on how far the computed medians deviate from the printed numbers.
+    """Return a sentence with the median of the relative deviations of computed medians from the printed numbers.
 
-    printed_rows: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation; a claim
-    with several ensembles counts by the median of theirs.
+    printed_rows: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation. The
+    deviation of a claim is the median over its ensembles.
     """
     each = printed_rows.groupby("claim")
     off = printed_rows["deviation"].abs().groupby(printed_rows["claim"]).median().dropna()
@@ -92,19 +92,20 @@ def _describe_deviations(printed_rows: pandas.DataFrame) -> str:
         return f"{numbers}: none could be computed"
     count_text = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
     if not len(off):
-        return f"{count_text}: of a printed 0 ours is off by no share"
+        return f"{count_text}: a printed 0 has no relative deviation"
     median_text = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
     sentence = (
-        f"ours are off by {median_text} or less for half of them" if len(off) > 1 else f"ours is off by {median_text}"
+        f"half of the computed values deviate by {median_text} or less"
+        if len(off) > 1
+        else f"the computed value deviates by {median_text}"
     )
     return f"{count_text}: {sentence}"
 
 
 def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Study) -> None:
-    """Judge all claims by the finished runs, and write them as claims.json and as two CSV files into the study's
-    folder.
+    """Judge all claims by the finished runs, and write claims.json and two CSV files into the folder of the study.
 
-    A study without claims has such files of an earlier version removed. Raises OutputError.
+    Without claims nothing is written, and files of an earlier edition of the claims are removed. Raises OutputError.
     """
     if not (claims.numbers or claims.trends):
         for name in (CLAIMS_FILE, *(f"claims_{table}.csv" for table in TABLE_NAMES)):
@@ -124,10 +125,10 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
 
 
 def read_claims(folder: Path) -> JudgedClaims:
-    """Return the judged claims from the folder of a study. Raises GudgeonError if the study makes no claims."""
+    """Read the judged claims from the folder of a study. Raises GudgeonError if the study has no claims."""
     document = read_claims_json(folder)
     if document is None:
-        raise GudgeonError("the file of this study makes no claims")
+        raise GudgeonError("the study file has no claims")
     numbers, trends = _build_tables(document)
     return JudgedClaims(numbers, trends, str(document.get("source", "")))
 
@@ -147,9 +148,9 @@ def read_claims_json(folder: Path) -> dict[str, Any] | None:
 
 
 def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
-    """Return the tables of numbers and of trends from their rows, with null as NaN in columns of floats.
+    """Return the tables of numbers and of trends from their rows, {"numbers": [...], "trends": [...]}.
 
-    rows: {"numbers": [...], "trends": [...]}.
+    None (null in JSON) becomes NaN in columns of numbers.
     """
     import pandas
 
@@ -164,24 +165,25 @@ def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
 
 
 class _FinishedRuns:
-    """Measures of a study's runs by cell and ensemble."""
+    """Reader of the measures of a finished study, by cell and ensemble; arrays are cached."""
 
     def __init__(self, plans: Plans, study: Study, value_texts: Mapping[str, Mapping[str, tuple[str, ...]]]) -> None:
-        """Store plans, finished study, and the texts of coordinate values as the file writes them, {part: {name:
-        texts}}.
-        """
+        """Store plans and finished study; value_texts: typeset values of coordinates, {part: {name: texts}}."""
         self.plans, self.study, self.written = plans, study, value_texts
         self.cached_values: dict[tuple[str, str], Array] = {}
 
     def list_ensembles(self, cells: list[RunCell]) -> list[str]:
-        """Return the names of the ensembles of the parts of these cells, each once; [""] if there are none."""
+        """Return the names of the ensembles in the parts of these cells, without repetitions; [""] for none."""
         names = [
             name for part in dict.fromkeys(cell.part for cell in cells) for name in self._list_ensemble_names(part)
         ]
         return list(dict.fromkeys(names)) or [NO_ENSEMBLE]
 
     def has_separate_runs(self, cell: RunCell, ensembles: list[str]) -> bool:
-        """Return whether a cell has runs of its own in each of these ensembles, or there is only one ensemble."""
+        """Return whether each of these ensembles has its own runs of a cell; True for fewer than two ensembles.
+
+        It is False for a cell of a part without these ensembles, whose runs all ensembles share.
+        """
         return len(ensembles) < 2 or set(ensembles) <= set(self._list_ensemble_names(cell.part))
 
     def _list_ensemble_names(self, part: str) -> list[str]:
@@ -192,10 +194,9 @@ class _FinishedRuns:
         ]
 
     def read_values(self, cell: RunCell, measure: str, ensemble: str) -> Array:
-        """Return a measure of the runs of a cell in an ensemble, (n,).
+        """Return a measure of the runs of a cell in an ensemble, (n,), with NaN of failed runs.
 
-        If the cell does not have this ensemble, all its runs are returned. The array of the part is read once and
-        cached.
+        If the part of the cell does not have this ensemble, all runs of the cell are returned.
         """
         plan, key = self.plans.by_part[cell.part], (cell.part, measure)
         if key not in self.cached_values:
@@ -211,10 +212,10 @@ class _FinishedRuns:
 def _judge_number(
     number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, RunCell]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the table row of a published number for each ensemble: quartiles of its runs, and the deviation in %.
+    """Yield the table row of a number for each ensemble: quartiles of its runs, and the deviation of the median in %.
 
-    cells: cells of all numbers by the name of their claim. The deviation is from the printed value, or from the median
-    of the number in `beside`; null without runs or for a base of 0.
+    cells: cells of all numbers by the name of their claim. The deviation is relative to the printed value, or to the
+    median of the number in `beside`. It is None without finite values, or relative to 0.
     """
     claim = number.claim
     for ensemble in finished_runs.list_ensembles([number.cell]):
@@ -250,9 +251,9 @@ def _judge_number(
 
 
 def _describe_cell(plan: Plan, number: ResolvedNumber, value_texts: Mapping[str, tuple[str, ...]]) -> str:
-    """Return the coordinates of a number's cell in words: "scene dry, c 0.3 mm".
+    """Return the coordinates of a number's cell in words: "scene dry, c 0.3 mm", for the table column `at`.
 
-    Texts of the claim take precedence over those of the file (`value_texts`), and these over formatted values.
+    A value is written as in the claim, else as in the study file (`value_texts`), else formatted with six digits.
     """
     texts, words = (
         [],
@@ -269,14 +270,14 @@ def _describe_cell(plan: Plan, number: ResolvedNumber, value_texts: Mapping[str,
 
 
 def _list_cell_dimensions(plan: Plan) -> list[str]:
-    """Return the dimensions of a plan that distinguish cells: all but ensemble and start."""
+    """Return the names of the dimensions of a plan that distinguish cells: all but "ensemble" and "start"."""
     return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
 def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
-    """Yield the table row of a trend for each ensemble: the verdict of all ensembles, its own, and probabilities.
+    """Judge a trend, and yield its table row for each ensemble: common verdict, verdict of the ensemble, probabilities.
 
-    A trend that the study does not compute has one row with the verdict "not computed".
+    A trend with `not_computed` has one row with the verdict "not computed" and probabilities None.
     """
     claim = trend.claim
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
@@ -320,10 +321,10 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
 
 
 def _has_measure(finished_runs: _FinishedRuns, cell: RunCell, measure: str) -> bool:
-    """Return whether the part that a cell belongs to has a measure of this name."""
-    return any(expected.name == measure for expected in finished_runs.plans.by_part[cell.part].run_settings.measures)
+    """Return whether the part of a cell has a measure of this name."""
+    return any(candidate.name == measure for candidate in finished_runs.plans.by_part[cell.part].run_settings.measures)
 
 
 def _replace_nonfinite(value: float | None) -> float | None:
-    """Return a finite number as a float; None for None, NaN and infinity, which JSON lacks."""
+    """Return a finite number as a Python float; None for None, NaN and infinity, which JSON lacks."""
     return None if value is None or not math.isfinite(value) else float(value)
