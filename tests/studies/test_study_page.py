@@ -1,4 +1,4 @@
-"""Run the study and the Python of docs/studies.md, read its fragments and check that its tables are complete."""
+"""Run the study and the Python of docs/studies.md, read its fragments and those of claims.md, check their tables."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 
 jsonschema = pytest.importorskip("jsonschema")
-PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = "".join((DOCS / name).read_text(encoding="utf-8") for name in ("studies.md", "claims.md"))
 
 
 def blocks(language: str) -> list[str]:

@@ -409,8 +409,8 @@ class _Collector:
 def resolve_wear_model(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel:
     """Return the wear model of a study, with the wear rate from the wear coefficient and the hardness in SI.
 
-    sources: all scenes of the study. Raises UnknownNameError for a joint without a contour in every scene, InputError
-    for invalid values, each at its location.
+    sources: all scenes of the study. Raises UnknownNameError for a joint that has a contour in no scene, InputError for
+    invalid values, each at its location.
     """
     joints_with_contour = {contour.joint for source in sources for contour in source.contours}
     for joint in wear.joints:
