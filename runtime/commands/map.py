@@ -23,7 +23,7 @@ from gudgeon.studies.map import (
     VerdictMap,
     compute_verdict_box,
     compute_verdict_map,
-    list_default_steps,
+    list_map_steps,
 )
 from gudgeon.studies.runs import FIXED_STEP_METHODS, Setting, find_default_step
 from gudgeon.studies.show.box import report_box
@@ -66,7 +66,7 @@ def map_file(request: Request, map_options: MapOptions) -> int:
     table_path = request.find_table_path(dynamic_simulations[0].source.mechanism, "map")
     if map_options.box is not None:
         return _map_box(request, map_options, dynamic_simulations, t_end, setting, table_path)
-    steps = sorted({*list_default_steps(dynamic_simulations, request.quick), *([] if step is None else [step])})
+    steps = sorted({*list_map_steps(dynamic_simulations, request.quick), *([] if step is None else [step])})
 
     def classify_scene(simulation: Simulation, progress: Report | None) -> VerdictMap:
         """Return the map of one scene: the verdicts over the axes of the command, with the scene's values of `--set`.

@@ -170,7 +170,7 @@ def measure_scene(
             simulation, parameters, KINEMATIC_SAMPLE_COUNTS[:3] if quick else KINEMATIC_SAMPLE_COUNTS, t_end, progress
         )
     selected, left_out = select_methods(simulation, methods, quick)
-    usual = list_default_steps(simulation, parameters, quick)
+    usual = list_bench_steps(simulation, parameters, quick)
     steps = sorted(check_numbers(steps, "steps") or usual, reverse=True)
     tolerances = sorted(
         check_numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True
@@ -196,7 +196,7 @@ def measure_scene(
     return replace(scene_bench, left_out=(*left_out, *scene_bench.left_out))
 
 
-def list_default_steps(
+def list_bench_steps(
     simulation: Simulation, parameters: Parameters | None = None, quick: bool = False
 ) -> tuple[float, ...]:
     """Return the steps 1, 2, 5 · 10^k s, ascending, from MIN_STEP_FACTOR to MAX_STEP_FACTOR times the default step.

@@ -201,7 +201,7 @@ def arrange_axes(
             make_axis(
                 simulation,
                 expected,
-                list_default_steps([simulation], quick) if method in FIXED_STEP_METHODS else tolerances,
+                list_map_steps([simulation], quick) if method in FIXED_STEP_METHODS else tolerances,
             )
         ]
     return method_axes[0], parameter_axes[0] if parameter_axes else _build_clearance_axis(simulation, parameters, quick)
@@ -296,7 +296,7 @@ def _count_judged(cells: Sequence[Cell]) -> tuple[int, int]:
     return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
 
 
-def list_default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
+def list_map_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
     """Return the steps 1, 2, 5 · 10^k s, ascending, from the smallest default step of the scenes to 200 times that.
 
     With `quick` it is every second of them from the fourth on.

@@ -107,7 +107,7 @@ def measure_rhs_time(
     return times
 
 
-def count_operations(simulation: Simulation, closed_joints: list[str] | None = None) -> int:
+def count_rhs_operations(simulation: Simulation, closed_joints: list[str] | None = None) -> int:
     """Return the number of operations of one right-hand side: equations of motion, all films, active contact forces.
 
     closed_joints: names of the joints in contact, whose dry contact forces count; None means none.
@@ -163,4 +163,4 @@ def _measure_rhs_at_state(
         before = time.perf_counter()
         model.lib.gudgeon_time_rhs(*arguments)
         shortest = min(shortest, (time.perf_counter() - before) / batch)
-    return RhsTime(state, shortest, count_operations(simulation, closed_joints), t, q.copy(), v.copy())
+    return RhsTime(state, shortest, count_rhs_operations(simulation, closed_joints), t, q.copy(), v.copy())

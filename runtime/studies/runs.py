@@ -319,7 +319,7 @@ def _find_peak_force(run: Result) -> float:
 
 
 def find_mechanism_size(run: Result) -> float:
-    """Return the size of the mechanism of a run, m, by which lengths and residuals are divided.
+    """Return the characteristic length of the mechanism of a run (m), the scale of lengths and residuals.
 
     Raises GudgeonError for a result that was read from a file, which has no compiled scene.
     """

@@ -33,7 +33,7 @@ from gudgeon.studies.bench import (
     measure_scene,
     select_references,
 )
-from gudgeon.studies.methods import count_operations, measure_rhs_time
+from gudgeon.studies.methods import count_rhs_operations, measure_rhs_time
 from gudgeon.studies.runs import (
     N_ONSETS,
     Attempt,
@@ -209,11 +209,11 @@ def test_scene_without_freedom_is_measured_by_its_samples() -> None:
 def test_operations_grow_by_the_dry_forces_of_the_joints_in_contact() -> None:
     free, closed = measure_rhs_time(press("dry"), 0.01, batch=10, repeats=1)
     assert (free.state, closed.state) == ("start", "A in contact")
-    assert free.operations == count_operations(press("dry")) == press("dry").source.operations["dynamics"]
+    assert free.operations == count_rhs_operations(press("dry")) == press("dry").source.operations["dynamics"]
     added = [press("dry").source.operations[f"{part}_A_force"] for part in ("normal", "friction")]
     assert closed.operations - free.operations == sum(added)
     assert np.hypot(*(closed.q[3:5] - free.q[3:5])) > 0  # the state is that of the peak
-    assert count_operations(press("lubricated")) > count_operations(press("dry"))
+    assert count_rhs_operations(press("lubricated")) > count_rhs_operations(press("dry"))
 
 
 @needs_compiler

@@ -16,7 +16,7 @@ from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import Axis, make_axis, make_clearance_axis, parse_axis
-from gudgeon.studies.map import VerdictMap, compute_verdict_map, list_default_clearances, list_default_steps
+from gudgeon.studies.map import VerdictMap, compute_verdict_map, list_default_clearances, list_map_steps
 from gudgeon.studies.runs import Attempt, Error, SceneWindow, Setting
 from gudgeon.studies.show.map import describe_marked_step, format_run_command
 from gudgeon.studies.show.tables import format_fraction, format_seconds
@@ -150,7 +150,7 @@ def test_axis_of_clearances_holds_the_files_own(c: float) -> None:
 
 @needs_compiler
 def test_axis_of_steps_starts_at_the_shortest_scene() -> None:
-    steps = list_default_steps([press("lubricated"), press("dry")])
+    steps = list_map_steps([press("lubricated"), press("dry")])
     assert steps[0] == pytest.approx(1e-6) and any(math.isclose(x, 1e-4) for x in steps)
 
 

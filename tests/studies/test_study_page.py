@@ -16,7 +16,7 @@ from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_studies, read_study
 from gudgeon.generator.study.schema import make_schema
 from gudgeon.generator.study.spec import COUNTED_PARTS, KINDS, SAMPLING_METHODS, STATISTICS
-from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
+from gudgeon.studies.ensemble.names import collect_display_names, typeset_quantity
 from gudgeon.studies.ensemble.resolve import MAX_BLOCK_RUNS
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
@@ -169,7 +169,7 @@ def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tupl
     """What is between is that of the runs; without a unit that both have in SI."""
     study = {"mechanism": "slider_crank", "parameters": {"omega": row}, "measures": {"x": {"max": "slider.x"}}}
     plans = resolve_plans(study)
-    assert collect_names(plans).values[""].get("omega", ()) == shown
+    assert collect_display_names(plans).values[""].get("omega", ()) == shown
     for text, omega in zip(shown, plans.by_part[""].parameter_dimensions[0].columns["omega"], strict=False):
         message = text.replace("2.4·10²", "240").replace("π", "*pi")
         number, _, unit = message.partition(" ")

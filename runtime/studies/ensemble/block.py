@@ -26,7 +26,7 @@ from gudgeon.studies.ensemble.measures import (
     Spans,
     evaluate_measure,
     find_sampled_interval,
-    is_within,
+    is_in_window,
     list_peak_series,
     list_sampled_series,
     list_sliding_requests,
@@ -122,12 +122,14 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     with collect_guess_notes(simulation.source, job.first_run) as guess_notes, announce_later_runs(job.n_later_runs):
         try:
             if len(valid_runs):
-                collector.add_batch(valid_runs, _run_batch(simulation, job, table, valid_runs, progress), failures)
+                collector.add_batch(
+                    valid_runs, _simulate_block_runs(simulation, job, table, valid_runs, progress), failures
+                )
         except InputError:  # usually caused by one run: simulate the runs one by one
             for i in valid_runs:
                 try:
                     collector.add_batch(
-                        np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures
+                        np.array([i]), _simulate_block_runs(simulation, job, table, np.array([i]), None), failures
                     )
                 except InputError as error:
                     failures[i] = str(error)
@@ -283,7 +285,9 @@ def _to_python_value(value: Any) -> float | str:
     return value if isinstance(value, str) else float(value)
 
 
-def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, progress: Progress | None) -> Batch:
+def _simulate_block_runs(
+    simulation: Simulation, job: Job, table: RunTable, runs: Array, progress: Progress | None
+) -> Batch:
     """Simulate some runs of a job as one batch, after its rounds of wear, and return the batch.
 
     runs: indices within the job. If the study stores no series and no measure needs samples of whole runs, only samples
@@ -337,7 +341,7 @@ def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, p
 
 def _select_stored_times(t: Array, begin: float, end: float) -> Array:
     """Return the sample times of t (s) that are stored: those in [begin, end], and the first and last of the run."""
-    return t[(t == 0.0) | (t == t[-1]) | is_within(t, begin, end)]
+    return t[(t == 0.0) | (t == t[-1]) | is_in_window(t, begin, end)]
 
 
 class _Collector:

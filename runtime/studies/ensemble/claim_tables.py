@@ -17,7 +17,7 @@ from gudgeon.language.plot_units import format_quantity
 from gudgeon.language.text_output import escape_for_spreadsheet, format_count
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import RunCell, judge_claim, merge_verdicts
-from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
+from gudgeon.studies.ensemble.names import collect_display_names, typeset_quantity
 
 if TYPE_CHECKING:
     import pandas
@@ -111,7 +111,7 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
         for name in (CLAIMS_FILE, *(f"claims_{table}.csv" for table in TABLE_NAMES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs = _FinishedRuns(plans, study, collect_names(plans).values)
+    runs = _FinishedRuns(plans, study, collect_display_names(plans).values)
     cells = {str(judged.claim.name): judged.cell for judged in claims.numbers}
     rows = {
         "numbers": [row for judged in claims.numbers for row in _judge_number(judged, runs, cells)],
@@ -124,7 +124,7 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
             file.write(table.map(escape_for_spreadsheet).to_csv(index=False).encode())
 
 
-def read_claims(folder: Path) -> JudgedClaims:
+def read_judged_claims(folder: Path) -> JudgedClaims:
     """Read the judged claims from the folder of a study. Raises GudgeonError if the study has no claims."""
     document = read_claims_json(folder)
     if document is None:

@@ -40,9 +40,9 @@ MAX_LISTED = 8  # values of a coordinate in a hint
 
 
 def limit_checks(checks: Iterable[Check], claim_name: Text) -> tuple[Check, ...]:
-    """Return the checks of a claim as a tuple, at most MAX_COMPARED.
+    """Evaluate an iterator of checks of a claim up to MAX_COMPARED, and return them as a tuple.
 
-    Raises BadValueError at the name of the claim if there are more.
+    Raises BadValueError at the name of the claim if there are more, without evaluating the others.
     """
     first_checks = tuple(itertools.islice(checks, MAX_COMPARED + 1))
     if len(first_checks) > MAX_COMPARED:
@@ -142,7 +142,7 @@ def resolve_claims(plans: Plans) -> ResolvedClaims:
     numbers, trends = list[ResolvedNumber](), list[ResolvedTrend]()
     for number in claims.numbers:
         try:
-            numbers.append(_resolve_number(plans, number))
+            numbers.append(_resolve_number_claim(plans, number))
         except InputError as error:
             errors.append(error)
     for trend in claims.trends:
@@ -156,7 +156,7 @@ def resolve_claims(plans: Plans) -> ResolvedClaims:
     return ResolvedClaims(tuple(numbers), tuple(trends))
 
 
-def _resolve_number(plans: Plans, claim: NumberClaim) -> ResolvedNumber:
+def _resolve_number_claim(plans: Plans, claim: NumberClaim) -> ResolvedNumber:
     """Return a published number with its cell, the SI unit of its measure, and its printed value in SI (or None).
 
     Raises BadValueError if the claim selects several cells, an InputError for unknown names or a wrong unit.

@@ -27,9 +27,9 @@ MAX_FAILURE_KINDS, MAX_TEXT_LENGTH = (
 
 
 def write_dataset(folder: StudyFolder) -> None:
-    """Write all blocks of a study as `study.nc` in its folder, replacing the file only when it is complete.
+    """Merge all blocks of a study into `study.nc` in its folder, which is replaced atomically when it is complete.
 
-    Raises OutputError, or LookupError for a missing block.
+    Called once all blocks are finished. Raises OutputError, or LookupError for a missing block.
     """
     t, common = _find_common_times(folder)
     with open_atomic(folder.path / DATASET, sync=True) as file:
@@ -148,14 +148,14 @@ def _format_note(plan: Plan, note: Note) -> str:
         if coordinate.over and set(coordinate.over) <= {*indices} and coordinate.over == coordinate.over[:1]
     )
     values = [
-        f"{coordinate.name}={_format_value(coordinate.values[indices[coordinate.over[0]]])}"
+        f"{coordinate.name}={_format_coordinate_value(coordinate.values[indices[coordinate.over[0]]])}"
         for coordinate in coordinates
     ][:MAX_LISTED_COORDINATES]
     such = f" ({', '.join(values)})" if values else ""
     return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
 
 
-def _format_value(value: Any) -> str:
+def _format_coordinate_value(value: Any) -> str:
     """Return a value of a coordinate as text: a word unchanged, a number with six digits."""
     return str(value) if isinstance(value, str) else f"{value:.6g}"
 

@@ -15,9 +15,9 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import open_atomic
 from gudgeon.language.argument_checks import check_names, check_path
 from gudgeon.language.names import make_missing_name_error
-from gudgeon.studies.ensemble.claim_tables import JudgedClaims, read_claims
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims, read_judged_claims
 from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, import_h5py
-from gudgeon.studies.ensemble.names import Names, read_names
+from gudgeon.studies.ensemble.names import Names, read_display_names
 
 if TYPE_CHECKING:
     import pandas
@@ -81,14 +81,14 @@ class Study:
         claims.
         """
         if self._whole is None:
-            return read_claims(self.folder)
+            return read_judged_claims(self.folder)
         study_claims = self._whole.claims
         return study_claims._replace(numbers=study_claims.numbers[study_claims.numbers["part"] == self.folder.name])
 
     @cached_property
     def names(self) -> Names:
         """Return the display texts of names and values for reports; a part has those of the whole study."""
-        return read_names(self.folder) if self._whole is None else self._whole.names
+        return read_display_names(self.folder) if self._whole is None else self._whole.names
 
     @property
     def tree(self) -> xarray.DataTree:

@@ -19,7 +19,7 @@ from gudgeon.integrators.threads import count_available_threads
 from gudgeon.loading.kernel_sources import find_mechanism, is_source_cached
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.workers import initialize_worker, list_law_files
+from gudgeon.studies.ensemble.workers import initialize_worker, list_registered_law_files
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iter
     with Programs() as programs:
         process = None
         if len(missing) >= MIN_LIBRARIES_FOR_PROCESS and count_available_threads() > 1:
-            arguments = json.dumps([list_law_files(), missing[: -MAX_LIBRARIES_FOR_PROCESS - 1 : -1]])
+            arguments = json.dumps([list_registered_law_files(), missing[: -MAX_LIBRARIES_FOR_PROCESS - 1 : -1]])
             try:
                 process = programs.start([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))
             except OSError:

@@ -283,7 +283,7 @@ def find_sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array
     return begin, np.max([np.full(len(runs), np.inf) if end is None else end[runs] for _, end in ends], axis=0)
 
 
-def is_within(t: Array, begin: Array | float, end: Array | float) -> Array:
+def is_in_window(t: Array, begin: Array | float, end: Array | float) -> Array:
     """Return a flag for each sample time: whether it lies in [begin, end], with the relative tolerance ROUNDING."""
     tolerance = ROUNDING * np.abs(t)
     return np.asarray((t >= begin - tolerance) & (t <= end + tolerance))
@@ -295,7 +295,7 @@ def _is_in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
     t, x: (n, N). begin, end (s): (n,).
     """
     with np.errstate(invalid="ignore"):
-        return is_within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
+        return is_in_window(t, begin[:, None], end[:, None]) & ~np.isnan(x)
 
 
 def _make_extreme_statistic(

@@ -86,7 +86,7 @@ def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
     return str(parameter_values.texts[0]), *between, str(parameter_values.texts[1])
 
 
-def collect_names(plans: Plans) -> Names:
+def collect_display_names(plans: Plans) -> Names:
     """Return the titles, typeset values and paragraphs of a study file, for the report.
 
     A coordinate has texts only if the file writes all its values as numbers with units.
@@ -106,16 +106,16 @@ def collect_names(plans: Plans) -> Names:
     return Names(plans.file.titles, values, plans.file.about)
 
 
-def write_names(folder: Path, plans: Plans) -> None:
+def write_display_names(folder: Path, plans: Plans) -> None:
     """Write the display texts of a study as names.json into its folder; they do not affect the runs.
 
     An existing file is replaced. Raises OutputError.
     """
     with open_atomic(folder / NAMES_FILE) as file:
-        file.write(json.dumps(collect_names(plans)._asdict(), indent=1, ensure_ascii=False).encode())
+        file.write(json.dumps(collect_display_names(plans)._asdict(), indent=1, ensure_ascii=False).encode())
 
 
-def read_names(folder: Path) -> Names:
+def read_display_names(folder: Path) -> Names:
     """Return the display texts from the folder of a study; all are empty if names.json is missing or damaged."""
     try:
         data = read_regular_file(folder / NAMES_FILE)

@@ -135,10 +135,12 @@ def parse_dimension_values(parameter_values: ParameterValues, parameter: Runtime
         )
     spaced_values = np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace
     with np.errstate(over="ignore", invalid="ignore"):
-        return check_finite(np.asarray(spaced_values(first, last, parameter_values.count)), parameter_values.texts[1])
+        return check_finite_values(
+            np.asarray(spaced_values(first, last, parameter_values.count)), parameter_values.texts[1]
+        )
 
 
-def check_finite(values: Array, text: Text) -> Array:
+def check_finite_values(values: Array, text: Text) -> Array:
     """Return the array `values` unchanged; raise BadValueError at `text` if any value is not finite (overflow)."""
     if not np.isfinite(values).all():
         message = "values of the range exceed the largest floating-point number"

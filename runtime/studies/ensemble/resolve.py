@@ -37,7 +37,7 @@ from gudgeon.studies.ensemble.measures import (
 from gudgeon.studies.ensemble.parameter_values import (
     check_constant_settings,
     check_expression,
-    check_finite,
+    check_finite_values,
     find_parameter,
     find_parameter_in_scenes,
     parse_dimension_values,
@@ -65,7 +65,7 @@ def resolve_study(study: StudyFile) -> Plan:
     """
     check_study_size(study)
     structure, coordinates = _resolve_structure(study)
-    parts = tuple(_load_parts(study))
+    parts = tuple(_load_structures(study))
     sources = [part.simulation.source for part in parts]
     numbers, parameter_coordinates = _resolve_parameters(study, sources)
     deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
@@ -109,7 +109,7 @@ def _resolve_structure(study: StudyFile) -> tuple[list[StudyDimension], list[Coo
     return [StudyDimension(name, len(words)) for name, words, _ in named], coordinates
 
 
-def _load_parts(study: StudyFile) -> Iterator[Part]:
+def _load_structures(study: StudyFile) -> Iterator[Part]:
     """Load the library of every combination of scene and options, and yield a part for each.
 
     Scenes that measures subtract are loaded, too, and checked for the series. Raises an InputError at its location.
@@ -189,8 +189,8 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
-            values = compute_quantiles(spread, first, second, points[:, draw.names.index(name)])
-            drawn_values[str(name)] = check_finite(values, spread.ends[1])
+            values = compute_distribution_quantiles(spread, first, second, points[:, draw.names.index(name)])
+            drawn_values[str(name)] = check_finite_values(values, spread.ends[1])
     return drawn_values
 
 
@@ -412,7 +412,7 @@ def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> A
     return np.asarray(qmc.Sobol(n_dimensions, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def compute_quantiles(
+def compute_distribution_quantiles(
     distribution: Distribution, mean_or_low: float, deviation_or_high: float, fractions: Array
 ) -> Array:
     """Return the quantiles (SI), (n,), of a normal, log-uniform (`spacing: geometric`) or uniform distribution.

@@ -28,7 +28,7 @@ from gudgeon.studies.ensemble.folder import (
     read_manifest,
 )
 from gudgeon.studies.ensemble.loop import finish_study
-from gudgeon.studies.ensemble.names import write_names
+from gudgeon.studies.ensemble.names import write_display_names
 from gudgeon.studies.ensemble.workers import convert_to_executor
 
 if TYPE_CHECKING:
@@ -151,18 +151,20 @@ def run_plans(
     done = 0
     for name, plan in plans.by_part.items():
 
-        def report(fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done) -> None:
+        def report_part_progress(
+            fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done
+        ) -> None:
             """Report the progress of a part as a fraction of the runs of all parts, with the name of the part."""
             if progress:
                 progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
 
         with StudyFolder(folder / name, plan).open_locked(restart) as opened:
-            finish_study(opened, threads, executor, report if progress else None)
+            finish_study(opened, threads, executor, report_part_progress if progress else None)
         done += plan.runs
     study = (
         StudyOfParts(folder, list(plans.by_part), temporary_folder) if plans.named else Study(folder, temporary_folder)
     )
-    write_names(folder, plans)
+    write_display_names(folder, plans)
     if plans.claims is not None:
         write_claims(folder, plans, plans.claims, study)
     return study

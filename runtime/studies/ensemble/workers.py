@@ -121,7 +121,7 @@ def open_workers(n_processes: int | None, cluster_address: str | None) -> Iterat
     if n_processes is not None and cluster_address is not None:
         raise InputError("--workers and --dask: a cluster has its own workers", hint="use one of the two options")
     if n_processes is not None:
-        with Processes(n_processes, list_law_files()) as executor:
+        with Processes(n_processes, list_registered_law_files()) as executor:
             yield executor
     elif cluster_address is not None:
         with _connect_to_cluster(cluster_address) as client:
@@ -130,7 +130,7 @@ def open_workers(n_processes: int | None, cluster_address: str | None) -> Iterat
         yield None
 
 
-def list_law_files() -> tuple[str, ...]:
+def list_registered_law_files() -> tuple[str, ...]:
     """Return the files of the user-defined laws that are registered in this process, for `initialize_worker`.
 
     Laws without a file are left out.

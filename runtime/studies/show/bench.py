@@ -16,7 +16,7 @@ from gudgeon.studies.show.tables import (
     format_fraction,
     format_seconds,
     make_console,
-    make_table,
+    make_rich_table,
     write_table_and_figure,
 )
 
@@ -80,7 +80,7 @@ def _print_bench(
         return
     out = make_console()
     for scene_bench in scene_benches:
-        out.print(_format_title(scene_bench), style="bold")
+        out.print(_format_scene_title(scene_bench), style="bold")
         if scene_bench.methods == ("kinematic",):
             out.print(_build_kinematic_table(scene_bench))
         elif method_rows := [row for row in scene_bench.rows if row.setting.method not in NAMES]:
@@ -99,7 +99,7 @@ def _print_bench(
         out.print(f"wrote {format_path(path)}")
 
 
-def _format_title(scene_bench: SceneBench) -> str:
+def _format_scene_title(scene_bench: SceneBench) -> str:
     """Return the title of a scene's tables: "dry: the first 20 ms (the first 4 contacts)", with a note after Ctrl-C."""
     part = " (partial: interrupted after {} of {} rows)".format(*scene_bench.done) if scene_bench.interrupted else ""
     return (
@@ -114,7 +114,7 @@ def _build_kinematic_table(scene_bench: SceneBench) -> Table:
 
     A failed row has its failure instead of the run time.
     """
-    table = make_table(("samples", "per simulated s", "per sample", "max |Φ| / size"))
+    table = make_rich_table(("samples", "per simulated s", "per sample", "max |Φ| / size"))
     for row in scene_bench.rows:
         cells = (
             format_seconds(row.seconds),
@@ -133,7 +133,7 @@ def _build_method_table(scene_bench: SceneBench, rows: Sequence[Row], columns: S
     """
     from rich.text import Text
 
-    table = make_table(columns)
+    table = make_rich_table(columns)
     before = ""
     for row in rows:
         method = row.setting.method if row.setting.method != before else ""
@@ -173,7 +173,7 @@ def _build_run_time_table(scene_bench: SceneBench) -> Table:
     The run time is that of the whole window, and the largest error measure counts. "–": the method does not reach the
     bound, or the references do not resolve it.
     """
-    table = make_table(
+    table = make_rich_table(
         ("run time for errors below", *map(_format_error, TARGETS)), left_aligned=("run time for errors below",)
     )
     for method in scene_bench.methods:
@@ -240,7 +240,7 @@ def _describe_step(scene_bench: SceneBench, step: float) -> str:
 
 def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:
     """Return the rich table of the times of one right-hand side, a row for each scene and state."""
-    table = make_table(("scene", "state", "time", "operations", "ns per operation"))
+    table = make_rich_table(("scene", "state", "time", "operations", "ns per operation"))
     for scene_bench in scene_benches:
         for rhs in scene_bench.rhs:
             table.add_row(

@@ -25,7 +25,7 @@ from gudgeon.studies.show.tables import (
     format_fraction,
     format_seconds,
     make_console,
-    make_table,
+    make_rich_table,
     write_table_and_figure,
 )
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
@@ -143,7 +143,7 @@ def _build_verdict_table(cells: Sequence[Cell]) -> Table:
     """Return the rich table of verdicts: for each verdict and reason the number of points and the largest error."""
     from rich.text import Text
 
-    table = make_table(("verdict", "points", "largest error", "reason"), left_aligned=("verdict", "reason"))
+    table = make_rich_table(("verdict", "points", "largest error", "reason"), left_aligned=("verdict", "reason"))
     for status, reason, cells_of_group in group_cells(cells):
         errors = [cell.error.largest for cell in cells_of_group if math.isfinite(cell.error.largest)]
         sign = Text(f"{VERDICT_SIGNS[status]} {status.value}", COLOURS[status])

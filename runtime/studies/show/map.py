@@ -20,7 +20,7 @@ from gudgeon.studies.show.tables import (
     format_fraction,
     format_seconds,
     make_console,
-    make_table,
+    make_rich_table,
     write_table_and_figure,
 )
 from gudgeon.studies.verdicts import Cell, Status
@@ -144,7 +144,7 @@ def _build_map_table(verdict_map: VerdictMap) -> Table:
     from rich.text import Text
 
     heads = [format_axis_value(verdict_map.columns, x) for x in verdict_map.columns.values]
-    table = make_table([verdict_map.rows.name, *heads])
+    table = make_rich_table([verdict_map.rows.name, *heads])
     for row in verdict_map.rows.values:
         cells = (verdict_map.get_cell(row, x) for x in verdict_map.columns.values)
         marked = (Text(f"{VERDICT_SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
@@ -159,7 +159,7 @@ def _build_boundary_table(verdict_map: VerdictMap) -> Table:
     It is called for maps whose rows are steps.
     """
     name = verdict_map.columns.name
-    table = make_table((name, "largest stable step", "next step"), left_aligned=("next step",))
+    table = make_rich_table((name, "largest stable step", "next step"), left_aligned=("next step",))
     for x in verdict_map.columns.values:
         largest = verdict_map.find_largest_stable_row(x)
         next_step = next((step for step in verdict_map.rows.values if not step <= largest), None)
@@ -177,7 +177,7 @@ def print_failures(console: Console, mechanism: str, verdicts: VerdictMap | Verd
     mechanism: name or file as typed. verdicts: the map or box of the cells. A cell without a reason is printed with its
     largest error.
     """
-    laws = list_law_files()
+    laws = list_typed_law_files()
     for cell in cells:
         specified = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
         console.print(f"  {VERDICT_SIGNS[cell.status]} {specified}", markup=False, emoji=False)
@@ -221,7 +221,7 @@ def format_run_command(
     return shlex.join([*words, "--t-end", repr(t_end)])
 
 
-def list_law_files() -> list[str]:
+def list_typed_law_files() -> list[str]:
     """Return the files of the registered user-defined laws as the command line has them; other laws are left out.
 
     Laws that Python code registered have no such file.

@@ -17,7 +17,7 @@ from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
-from gudgeon.studies.show.tables import format_seconds, make_console, make_table
+from gudgeon.studies.show.tables import format_seconds, make_console, make_rich_table
 
 MAX_FAILURE_KINDS = 8  # reasons of failures that are printed
 MAX_TRENDS = 16  # with more trends, only their totals are printed
@@ -122,7 +122,7 @@ def _print_study(plan: Plan, study: Study) -> None:
     spread = {name: (unit, row) for name, unit, row in _iterate_measure_spreads(plan, study)}
     print(describe_runs(plan, study.runs))
     if spread:
-        table = make_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
+        table = make_rich_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
         for name, (unit, row) in spread.items():
             numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
             table.add_row(escape_invisible(name), *numbers, unit, str(row["nan"]))

@@ -39,7 +39,7 @@ class StudyReport:
 
     def to_html(self) -> str:
         """Return the report as the text of a self-contained HTML page, with its figures as SVG."""
-        parts, page_figures = _load_parts(self.study), PageFigures()
+        parts, page_figures = _read_part_data(self.study), PageFigures()
         first = next(iter(parts.values()))
         sections = list(_iterate_sections(self.study, parts, page_figures))
         chapters = _list_chapters(sections, parts) if len(parts) > 1 else ()
@@ -47,12 +47,12 @@ class StudyReport:
 
     def _repr_html_(self) -> str:
         """Return the report as an HTML fragment for a notebook, which calls this method."""
-        parts, page_figures = _load_parts(self.study), PageFigures()
+        parts, page_figures = _read_part_data(self.study), PageFigures()
         title = f"<h1>{escape_line(next(iter(parts.values())).title)}</h1>"
         return page_figures.insert_figures(build_article(_iterate_sections(self.study, parts, page_figures), title))
 
 
-def _load_parts(study: Study) -> dict[str, StudyData]:
+def _read_part_data(study: Study) -> dict[str, StudyData]:
     """Return the data of each part by its name; the key is "" for a study without parts."""
     return {name: StudyData(part) for name, part in (getattr(study, "parts", None) or {"": study}).items()}
 

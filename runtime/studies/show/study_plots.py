@@ -81,7 +81,7 @@ class StudyPlot:
             factor, unit = choose_plot_unit(max(magnitudes), values.attrs.get("units", ""))
             parts, is_ordered = self.data.split_runs(values, by), self.data.is_ordered_number(axis)
             for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
-                quantiles = compute_quantiles(self.data.flatten_runs(part_values, over)) * factor
+                quantiles = compute_run_quantiles(self.data.flatten_runs(part_values, over)) * factor
                 if is_ordered:
                     draw_band(ax, x, quantiles, colour, message)
                 else:
@@ -128,7 +128,7 @@ class StudyPlot:
                 draw_band(
                     ax,
                     t,
-                    compute_quantiles(self.data.flatten_runs(part_values, values.dims[-1])) * factor,
+                    compute_run_quantiles(self.data.flatten_runs(part_values, values.dims[-1])) * factor,
                     colour,
                     message,
                     0.0,
@@ -146,7 +146,7 @@ class StudyPlot:
         Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}. `by` None: one colour.
         """
         t, values = self.data.select_series(series, at)
-        return self._plot_curves(t, values, "t [s]", series, by, at, ax)
+        return self._plot_run_curves(t, values, "t [s]", series, by, at, ax)
 
     def spectrum(
         self,
@@ -173,7 +173,7 @@ class StudyPlot:
             )
             message = [word for word, _ in self.data.split_runs(values, by)]
             for word, (f, rows), colour in zip(message, spectra, choose_colours(len(message)), strict=True):
-                draw_band(ax, f, compute_quantiles(rows) * factor, colour, word, 0.0)
+                draw_band(ax, f, compute_run_quantiles(rows) * factor, colour, word, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=format_label(self.data.get_title(series), unit))
             self._set_title_and_legend(ax, at, len(message) > 1)
         return ax
@@ -197,7 +197,7 @@ class StudyPlot:
         t, values = self.data.select_series(series, at)
         cutoff = check_positive(cutoff, "cutoff")
         filtered = filter_low_pass(t, values, cutoff, order, check_flag(causal, "causal"))
-        ax = self._plot_curves(t, filtered, "t [s]", series, by, at, ax)
+        ax = self._plot_run_curves(t, filtered, "t [s]", series, by, at, ax)
         message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(format_figure_title(f"{ax.get_title()}: {message}", TITLE))
         return ax
@@ -209,9 +209,9 @@ class StudyPlot:
         """
         (_, xs), (_, ys) = self.data.select_series(x, at), self.data.select_series(y, at)
         factor, unit = choose_plot_unit(find_largest_magnitude(xs.values), xs.attrs.get("units", ""))
-        return self._plot_curves(xs.values * factor, ys, format_label(self.data.get_title(x), unit), y, by, at, ax)
+        return self._plot_run_curves(xs.values * factor, ys, format_label(self.data.get_title(x), unit), y, by, at, ax)
 
-    def _plot_curves(
+    def _plot_run_curves(
         self,
         x: Any,
         values: Any,
@@ -320,7 +320,7 @@ class StudyPlot:
         x, y = self.data.find_dimension(values, x), self.data.find_dimension(values, y)
         if x == y:
             raise BadValueError(f"heat_map: {x} is both x and y")
-        middle = compute_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
+        middle = compute_run_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.8, 4.2) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(middle), values.attrs.get("units", ""))
@@ -359,7 +359,7 @@ def _convert_to_dict(published: Any) -> dict[Any, Any]:
         raise_bad_value("published", published, "{coordinate: number}, or True")
 
 
-def compute_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = FIVE_NUMBER_LEVELS) -> Any:
+def compute_run_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = FIVE_NUMBER_LEVELS) -> Any:
     """Return quantiles (len(fractions), …) over the first axis (runs) of `rows`; values that are not finite are
     ignored.
 

@@ -30,7 +30,7 @@ def make_console() -> Console:
     return make_plain_console(None if sys.stdout.isatty() else MAX_FILE_WIDTH)
 
 
-def make_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Table:
+def make_rich_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Table:
     """Return an empty rich table with these column heads.
 
     Columns in `left_aligned` are left-aligned and wrapped, others right-aligned and not wrapped.
@@ -46,7 +46,7 @@ def make_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Tabl
     return table
 
 
-def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
+def write_rows_as_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
     """Write rows as CSV with a header line: floats with six digits, texts escaped so that a spreadsheet runs none.
 
     rows: column name to value; the first row decides the columns, and there must be one. Raises OutputError.
@@ -77,7 +77,7 @@ def write_table_and_figure(
 
         save_figure(draw_figure(), path)
 
-    steps: list[tuple[Path, Callable[[Path], None]]] = [(table_path, lambda path: write_csv(path, rows))]
+    steps: list[tuple[Path, Callable[[Path], None]]] = [(table_path, lambda path: write_rows_as_csv(path, rows))]
     if find_spec("matplotlib"):
         steps.append((table_path.with_suffix(".png"), save_png))
     for path, write in steps:
