@@ -439,5 +439,5 @@ def test_a_block_holds_as_many_samples_as_fit(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(resolve, "MAX_BLOCK_BYTES", 100_000)
     draw = {"count": 1000, "parameters": {"g": {"from": 5, "to": 10}}}
     plan = resolve_plans({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).by_part[""]
-    assert plan.runs == 1000 and plan.parts[0].block == 100_000 // (8 * 3 * 100)
+    assert plan.runs == 1000 and plan.parts[0].block_runs == 100_000 // (8 * 3 * 100)
     assert sum(block.runs for block in plan.blocks) == 1000
