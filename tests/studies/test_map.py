@@ -228,7 +228,7 @@ def test_axes_that_do_not_fit_are_refused() -> None:
     for text in ("omega", "omega=2..1", "omega=1..2:x"):
         with pytest.raises(BadValueError, match="expected"):
             parse_axis(dry, text)
-    with pytest.raises(BadValueError, match="no such number"):
+    with pytest.raises(BadValueError, match="no such parameter"):
         parse_axis(dry, "viscosity=1,2")
     with pytest.raises(UnknownNameError):
         parse_axis(dry, "omegga=1,2")
