@@ -28,7 +28,7 @@ import gudgeon
 from benchmarks import callgrind
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.methods import count_operations
+from gudgeon.studies.methods import count_rhs_operations
 from tests.oracles import press_dense
 from tests.oracles.press_dense import Press
 
@@ -70,7 +70,7 @@ class Work:
     def operations(self) -> tuple[int, int]:
         """Return the operations of the full and of the reduced right-hand side at this state, with force laws."""
         counts = self.simulation.source.operations
-        full = count_operations(self.simulation, list(self.closed))
+        full = count_rhs_operations(self.simulation, list(self.closed))
         return full, full - counts["dynamics"] + counts["reduced_dynamics"]
 
 

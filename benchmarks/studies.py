@@ -50,7 +50,7 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
     study = YAML(typ="safe").load(FILE)
     study["parameters"][VISCOSITY]["count"] = viscosities
     plans, alone = resolve_plans(study), math.nan
-    (plan,) = plans.each.values()
+    (plan,) = plans.by_part.values()
     if viscosities == TENTH:
         simulation, columns = plan.parts[0].simulation, plan.make_job(0, 0, np.arange(plan.runs), 1).columns
         before = process_time()

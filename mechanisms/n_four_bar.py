@@ -1,4 +1,4 @@
-"""The N-four-bar of any N as the text of a mechanism file: problem A02 of the IFToMM library, for scaling.
+"""Write the mechanism file of N four-bar linkages, problem A02 of the IFToMM library, for scaling studies.
 
 `python -m gudgeon.mechanisms.n_four_bar 40 > n_four_bar_40.yaml`; the shipped n_four_bar.yaml is N = 2.
 """
@@ -8,11 +8,11 @@ from __future__ import annotations
 import sys
 
 _TEXT = """\
-# N four-bar linkages side by side, N = {n}: problem A02 of the IFToMM library of computational benchmark
-# problems for multibody dynamics. {links} uniform bars of 1 m and 1 kg (I = m L^2/12), pivots 1 m apart. The cranks
-# stand upright, the first one's tip moves at 1 m/s. Whenever the cranks lie on the ground line the
-# linkage passes a singular position, where each square could fold over by itself.
-# Written by n_four_bar.py, which writes it for any N.
+# N coupled four-bar linkages, N = {n}: problem A02 of the IFToMM library of computational benchmark
+# problems for multibody dynamics. {links} uniform bars of 1 m and 1 kg (I = m L^2/12), distance of the pivots 1 m. The
+# cranks are vertical initially, and the tip of the first one moves at 1 m/s. When the cranks lie on the ground line,
+# the linkage passes a singular position (bifurcation), in which each parallelogram can change its branch.
+# Written by n_four_bar.py for any N.
 format: gudgeon/1
 name: {name}
 title: N-four-bar, N = {n} (IFToMM A02)
@@ -45,7 +45,7 @@ outputs:
 
 
 def text(n: int) -> str:
-    """The file for n squares: 2n + 1 bars, n + 1 of them cranks. Raises ValueError unless n ≥ 1."""
+    """Return the text of the file for n squares: 2n + 1 bars, n + 1 of them cranks. Raises ValueError unless n ≥ 1."""
     if n < 1:
         raise ValueError(f"N is {n}: expected 1 or more")
     cranks, couplers = [f"crank{i}" for i in range(n + 1)], [f"coupler{i}" for i in range(1, n + 1)]

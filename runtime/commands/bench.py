@@ -7,7 +7,7 @@ from gudgeon.commands.studies import MeasurementRequest, load_scenes, measure_sc
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.bench import SceneBench, list_default_steps, measure_scene
+from gudgeon.studies.bench import SceneBench, list_bench_steps, measure_scene
 from gudgeon.studies.methods import select_methods
 from gudgeon.studies.show.bench import report_bench
 
@@ -39,7 +39,7 @@ def benchmark_file(request: MeasurementRequest, methods: tuple[str, ...] = ()) -
         """
         parameters, steps = request.select_parameters(simulation), None
         if step is not None and simulation.source.degrees_of_freedom != 0:
-            steps = {*list_default_steps(simulation, parameters, request.quick), step}
+            steps = {*list_bench_steps(simulation, parameters, request.quick), step}
         return measure_scene(
             simulation,
             sorted(steps) if steps else None,

@@ -18,16 +18,16 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, make_axis, parse_axis
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import (
-    USUAL,
+    DEFAULT_RTOL,
     VerdictBox,
     VerdictMap,
     compute_verdict_box,
     compute_verdict_map,
-    list_default_steps,
+    list_map_steps,
 )
-from gudgeon.studies.runs import FIXED, Setting, find_default_step
+from gudgeon.studies.runs import FIXED_STEP_METHODS, Setting, find_default_step
 from gudgeon.studies.show.box import report_box
-from gudgeon.studies.show.map import PASCAL, report_map
+from gudgeon.studies.show.map import PRESSURE_UNITS, report_map
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class MapOptions:
     @property
     def fixed(self) -> bool:
         """Return whether the method has a fixed step."""
-        return self.method in FIXED
+        return self.method in FIXED_STEP_METHODS
 
 
 def map_file(request: MeasurementRequest, map_options: MapOptions) -> int:
@@ -66,7 +66,7 @@ def map_file(request: MeasurementRequest, map_options: MapOptions) -> int:
     table_path = request.find_table_path(dynamic_simulations[0].source.mechanism, "map")
     if map_options.box is not None:
         return _map_box(request, map_options, dynamic_simulations, t_end, setting, table_path)
-    steps = sorted({*list_default_steps(dynamic_simulations, request.quick), *([] if step is None else [step])})
+    steps = sorted({*list_map_steps(dynamic_simulations, request.quick), *([] if step is None else [step])})
 
     def classify_scene(simulation: Simulation, progress: Report | None) -> VerdictMap:
         """Return the map of one scene: the verdicts over the axes of the command, with the scene's values of `--set`.
@@ -114,8 +114,8 @@ def _map_box(
         """
         parameters = request.select_parameters(simulation)
         axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
-        ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
-        usual = find_default_step(simulation, parameters) if map_options.fixed else USUAL
+        ranges = [Range(a.name, a.values[0], a.values[-1], PRESSURE_UNITS.get(a.unit, a.unit)) for a in axes.values()]
+        usual = find_default_step(simulation, parameters) if map_options.fixed else DEFAULT_RTOL
         return compute_verdict_box(
             simulation,
             ranges,

@@ -87,7 +87,7 @@ def run_study_file(request: StudyRequest) -> int:
     with show_status_line(quiet=request.json):
         plans = resolve_plans(request.file, overrides, request.starts, request.seed)
     if request.runs:
-        estimates = {name: estimate_study(plan, request.threads) for name, plan in plans.each.items()}
+        estimates = {name: estimate_study(plan, request.threads) for name, plan in plans.by_part.items()}
         report_estimates(plans, estimates, request.json)
         return 0
     try:
@@ -103,9 +103,9 @@ def run_study_file(request: StudyRequest) -> int:
 
 def _report_interruption(plans: Plans, folder: Path) -> None:
     """Print to stderr how many blocks of runs are stored in the folder; called after Ctrl-C."""
-    n_blocks = sum(len(plan.blocks) for plan in plans.each.values())
+    n_blocks = sum(len(plan.blocks) for plan in plans.by_part.values())
     n_stored = min(
-        n_blocks, sum(StudyFolder(folder / name, plan).count_block_files() for name, plan in plans.each.items())
+        n_blocks, sum(StudyFolder(folder / name, plan).count_block_files() for name, plan in plans.by_part.items())
     )
     text = f"{n_stored} of {n_blocks} blocks of runs are in {format_path(folder)}"
     print(f"interrupted: {text}; the same command resumes the study", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""Own the axes of `gudgeon map`, the quantities that it varies: step, tolerance or run-time parameters."""
+"""Own the axes of `gudgeon map`, a parameter sweep: step, tolerance or run-time parameters with their values."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
 
 SETTINGS = {"step": "s", "rtol": ""}  # axes of the method, not of the mechanism
-DEFAULT_COUNT, MAX_COUNT = 5, 1000  # values of a range: by default, at most
+DEFAULT_COUNT, MAX_COUNT = 5, 1000  # number of values of a range: by default, at most
 _COUNT = re.compile(r"[0-9]{1,6}")
-# Axes that move every such number of the scene, each by its ratio to the first.
+# Axes that vary all parameters of a kind together; each keeps its ratio to the first.
 GROUPS: dict[str, Callable[[str], bool]] = {
     "stiffness": lambda address: address.startswith("materials.") and address.endswith(".E"),
     "viscosity": lambda address: address.startswith("contacts.") and address.endswith(".viscosity"),
@@ -81,7 +81,9 @@ def make_axis(
     indices = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
     first = float(p[indices[0]])
     if len(indices) > 1 and first == 0.0:
-        raise BadValueError(f"axis {name}: {source.slots[indices[0]].address} is zero, there is no ratio to it")
+        raise BadValueError(
+            f"axis {name}: {source.slots[indices[0]].address} is 0: expected another value, for the ratios to it"
+        )
     ratios = tuple((source.slots[k].address, float(p[k]) / first if len(indices) > 1 else 1.0) for k in indices)
     return Axis(name, tuple(sorted(values)), source.slots[indices[0]].unit, ratios)
 
@@ -99,7 +101,7 @@ def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | 
     if (choice := _find_choice_parameter(simulation.source, name.strip())) is not None:
         if ".." in value_list or ":" in value_list:
             names = ",".join(choice.words)
-            raise BadValueError(f"axis {axis_text!r}: its values are names, there is none between: {name}={names}")
+            raise BadValueError(f"axis {axis_text!r}: a choice by name has no range: expected {name}={names}")
         return make_axis(simulation, name.strip(), value_list.split(","), parameters)
     ends, colon, count = value_list.partition(":")
     parameter = _find_leading_parameter(simulation.source, name.strip())
@@ -117,14 +119,15 @@ def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | 
             )
         values = np.geomspace(values[0], values[1], count_of_values).tolist()
     elif colon:
-        raise BadValueError(f"axis {axis_text!r}: only a range low..high takes a number of values after ':'")
+        raise BadValueError(f"axis {axis_text!r}: ':' and a number of values are allowed after a range low..high only")
     return make_axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)
 
 
 def make_clearance_axis(simulation: Simulation, values: Sequence[float], parameters: Parameters | None = None) -> Axis:
-    """Return the axis `clearance` with these values (m); the clearances of all joints keep their ratios.
+    """Return the axis `clearance`: values (m) of the first joint's clearance, to which the others keep their ratios.
 
-    In a scene without play, `values` are ignored and the only value is NaN.
+    parameters: values as in `simulate`, from which the ratios follow. In a scene without play, `values` are ignored and
+    the only value is NaN.
     """
     if not simulation.source.clearances:
         return Axis("clearance", (math.nan,), "m")
@@ -132,16 +135,14 @@ def make_clearance_axis(simulation: Simulation, values: Sequence[float], paramet
 
 
 def _find_choice_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
-    """Return the run-time parameter with this address if its values are words (a choice, such as a material), else
-    None.
-    """
+    """Return the run-time parameter with this address if it is a choice by name, such as a material, else None."""
     return next((parameter for parameter in source.slots if parameter.address == name and parameter.words), None)
 
 
 def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
-    """Return the indices of the scene's parameters that the axis `name` sets; the first one has the values of the axis.
+    """Return the indices into the scene's parameter vector that the axis `name` sets; the first has the axis's values.
 
-    `name` is "clearance", a group (stiffness, viscosity, gains) or an address. Raises BadValueError if the scene has no
+    name: "clearance", a group (stiffness, viscosity, gains) or an address. Raises BadValueError if the scene has no
     parameter of the group, UnknownNameError for an unknown address.
     """
     if name == "clearance":
@@ -151,14 +152,15 @@ def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
     else:
         return [int(np.flatnonzero(read_given_parameters(source, {name: 1.0})[1])[0])]
     if not indices:
-        raise BadValueError(f"axis {name}: scene {source.scene!r} has no such number")
+        raise BadValueError(f"axis {name}: scene {source.scene!r} has no such parameter")
     return indices
 
 
 def _drop_unused_materials(source: KernelSource, p: Array, indices: list[int]) -> list[int]:
-    """Return the parameter indices without the moduli of materials that could be chosen, but are not with p.
+    """Return the parameter indices without Young's moduli of materials that no bearing or guide uses with p.
 
-    indices: into p. Choices of bearings and guides count. Fewer than two indices are returned unchanged.
+    p: parameter vector. indices: into p; a single index is returned unchanged. Only materials that a choice of a
+    bearing or guide offers can be removed.
     """
     choices = [
         (parameter, format_parameter(parameter, float(entry)))
@@ -174,9 +176,9 @@ def _drop_unused_materials(source: KernelSource, p: Array, indices: list[int]) -
 
 
 def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter:
-    """Return the parameter whose unit and dimension the numbers of an axis have.
+    """Return the parameter whose unit and dimension the values of the axis `name` have.
 
-    For `step` and `rtol` it is a new RuntimeParameter (s, or without dimension), for a group its first member.
+    It is a new RuntimeParameter for `step` (s) and `rtol` (no dimension), else the first parameter that the axis sets.
     """
     if name in SETTINGS:
         return RuntimeParameter(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))
@@ -184,9 +186,7 @@ def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter
 
 
 def _parse_quantity(text: str) -> float | str:
-    """Return the number in SI of a text with or without unit, such as "1mm"; a text that is no quantity is returned as
-    text.
-    """
+    """Return the value in SI of a text such as "1mm" or "3"; a text that is not a quantity is returned unchanged."""
     from gudgeon.model.parameters import parse_typed_number
 
     return parse_typed_number(text)

@@ -1,7 +1,7 @@
-"""Measure run time against error of every method, scene by scene: `gudgeon bench`.
+"""Measure work-precision diagrams, run time against error of every method, scene by scene: `gudgeon bench`.
 
-The error of a run is its difference from a reference by another method at a much tighter tolerance. There are two
-references by different methods; a run is compared with the one whose method it does not use. Their difference is
+The error of a run is its difference from a reference solution by another method at a much tighter tolerance. There are
+two references by different methods; a run is compared with the one whose method it does not use. Their difference is
 reported, and errors below twenty times it are not resolved. Times are the minimum of several runs on one thread.
 """
 
@@ -18,7 +18,6 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.language.argument_checks import check_callable, check_flag, check_mapping, check_numbers, check_positive
 from gudgeon.model.default_step import evaluate_end
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies import runs as measured
 from gudgeon.studies.methods import ADAPTIVE, RhsTime, measure_rhs_time, select_methods
 from gudgeon.studies.runs import (
     NAN,
@@ -28,25 +27,27 @@ from gudgeon.studies.runs import (
     SceneWindow,
     Setting,
     compare_runs,
+    find_comparison_window,
     find_default_step,
     find_mechanism_size,
+    list_round_numbers,
 )
 
-FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
-REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
-FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
+MIN_STEP_FACTOR, MAX_STEP_FACTOR = 1 / 5, 200  # range of the tested steps, as multiples of the scene's default step
+MAX_REFERENCE_STEPS = 200_000  # maximum length of the window, in steps of the smallest tested step
+REFERENCE_STEP_DIVISORS = (4, 8)  # for fixed steps only: steps of the references, as fractions of the smallest step
 REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
-SECOND = 1e-12  # tolerance of the second reference if one method is both
+SECOND_REFERENCE_RTOL = 1e-12  # tolerance of the second reference if both use the same method
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
-KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
+KINEMATIC_SAMPLE_COUNTS = (10, 100, 1_000, 10_000)  # sample intervals that are tested with dof = 0
 MAX_CROSS_CHECK_S, CROSS_CHECK_LIMIT_S = (
     2.0,
     5.0,
 )  # s: run time after which a cross-check gets no tighter tolerance; after which it is stopped
-QUICK = 0.02  # s of timed runs
-RESOLUTION_FACTOR = 20  # times the references' difference: smaller errors are not resolved
-MAX_ORDER_ERROR = 1e-3  # the largest error from which an order is determined
-MAX_LINE_DEVIATION = math.log(2.5)  # the largest deviation of points from a line that determines an order
+QUICK_TIMING_BUDGET_S = 0.02  # s, total time of the repetitions of one timed run with `quick`
+RESOLUTION_FACTOR = 20  # errors below this multiple of the references' difference are not resolved
+MAX_ORDER_ERROR = 1e-3  # maximum error of a point that counts for the order of convergence
+MAX_LINE_DEVIATION = math.log(2.5)  # maximum standard deviation of the points from the regression line, in log(error)
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Row:
     """Measurements of one method with one step or tolerance, or one number of samples of the kinematic method."""
 
     setting: Setting
-    seconds: float  # a simulated second; NaN if the run failed
+    seconds: float  # run time per simulated second; NaN if the run failed
     right_hand_sides: int
     error: Error
     jacobians: int = 0
@@ -70,14 +71,14 @@ class SceneBench:
 
     scene: str
     t_end: float
-    why: str  # this window
+    why: str  # reason for the end of the window, for display
     rows: tuple[Row, ...]
     references: tuple[Setting, ...]
-    agreement: Error  # of the two references
+    agreement: Error  # difference of the two references
     contact: float  # s, the shortest contact in the window; NaN: none
     rhs: tuple[RhsTime, ...]
-    left_out: tuple[str, ...] = ()  # sentences: cross-checks that were not run, or not so tightly
-    missing: int = 0  # settings that Ctrl-C cut short or left out
+    left_out: tuple[str, ...] = ()  # sentences: omitted cross-checks, or omitted tight tolerances of them
+    missing: int = 0  # settings without a row after Ctrl-C
 
     @property
     def interrupted(self) -> bool:
@@ -99,11 +100,11 @@ class SceneBench:
         return [row for row in self.rows if row.setting.method == method]
 
     def estimate_order(self, measure: str, method: str = "rk4") -> float:
-        """Return the order of convergence of a method: the slope of log(error) over log(step or tolerance).
+        """Return the observed order of convergence of a method: the slope of log(error) over log(step or tolerance).
 
-        measure: "motion", "path" or "force". Errors that the references do not resolve, or of MAX_ORDER_ERROR or more,
-        are left out. NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability
-        limit).
+        measure: "motion", "path" or "force". Only resolved errors below MAX_ORDER_ERROR count. NaN for fewer than three
+        of them, or if their standard deviation from the regression line is MAX_LINE_DEVIATION or more, as for a stiff
+        scene at its stability limit.
         """
         points = [(row.setting.value, getattr(row.error, measure)) for row in self.list_rows(method) if not row.failure]
         log_points = np.log([(h, e) for h, e in points if self.is_resolved(measure, e) and e < MAX_ORDER_ERROR])
@@ -117,24 +118,21 @@ class SceneBench:
         )
 
     def is_resolved(self, measure: str, error: float) -> bool:
-        """Return whether an error is large enough to be measured: more than RESOLUTION_FACTOR times the difference of
-        the two references.
+        """Return whether an error exceeds the uncertainty: RESOLUTION_FACTOR times the difference of the references.
 
-        measure: "motion", "path" or "force".
+        measure: "motion", "path" or "force". False for NaN.
         """
         return error > RESOLUTION_FACTOR * getattr(self.agreement, measure)
 
     def find_row(self, setting: Setting) -> Row | None:
-        """Return the row with the method and the step or tolerance of `setting`, equal to rounding; None if it was not
-        measured.
-        """
+        """Return the row with the method and, to rounding, the value of `setting`; None if it was not measured."""
         return next((r for r in self.list_rows(setting.method) if math.isclose(r.setting.value, setting.value)), None)
 
     def find_run_time_for_error(self, error: float, method: str) -> float:
-        """Return the least run time (s per simulated second) of the rows of a method whose largest error is at most
-        `error`.
+        """Return the minimum run time (s per simulated second) with which a method has an error of at most `error`.
 
-        NaN if no such row exists, or if the references differ so much that `error` is not resolved.
+        The largest of the three error measures counts. NaN if no successful row of the method is as accurate, or if
+        RESOLUTION_FACTOR times the difference of the references exceeds `error`.
         """
         if any(RESOLUTION_FACTOR * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
             return NAN
@@ -143,7 +141,7 @@ class SceneBench:
         )
 
 
-Report = Callable[[float, str], None]
+ReportProgress = Callable[[float, str], None]
 
 
 def measure_scene(
@@ -155,9 +153,9 @@ def measure_scene(
     parameters: Parameters | None = None,
     quick: bool = False,
     methods: Sequence[str] | None = None,
-    progress: Report | None = None,
+    progress: ReportProgress | None = None,
 ) -> SceneBench:
-    """Measure run time and error of one scene with every method and setting, against two references.
+    """Measure run time and error of one scene with every method and setting, against two reference solutions.
 
     steps (s) of rk4: by default 1, 2, 5 · 10^k around the step of a plain run. tolerances: by default 1e-3 … 1e-11.
     methods: names, or patterns such as "scipy:*"; by default all that fit. t_end (s): by default the end of the first
@@ -168,23 +166,25 @@ def measure_scene(
     parameters, progress = dict(check_mapping(parameters, "parameters")), check_callable(progress, "progress")
     t_end, quick = None if t_end is None else check_positive(t_end, "t_end"), check_flag(quick, "quick")
     if simulation.source.degrees_of_freedom == 0:
-        return _measure_kinematic_scene(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
+        return _measure_kinematic_scene(
+            simulation, parameters, KINEMATIC_SAMPLE_COUNTS[:3] if quick else KINEMATIC_SAMPLE_COUNTS, t_end, progress
+        )
     selected, left_out = select_methods(simulation, methods, quick)
-    usual = list_default_steps(simulation, parameters, quick)
+    usual = list_bench_steps(simulation, parameters, quick)
     steps = sorted(check_numbers(steps, "steps") or usual, reverse=True)
     tolerances = sorted(
         check_numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True
     )
     if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
         raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
-    max_window = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
+    max_window = max(MAX_REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
     pilot = Setting("rk4", find_default_step(simulation, parameters))
     window = (
         SceneWindow(simulation, t_end, parameters)
         if t_end
-        else measured.find_comparison_window(simulation, max_window, pilot, parameters)
+        else find_comparison_window(simulation, max_window, pilot, parameters)
     )
-    window = replace(window, timing_budget=QUICK if quick else window.timing_budget)
+    window = replace(window, timing_budget=QUICK_TIMING_BUDGET_S if quick else window.timing_budget)
     settings = [Setting("rk4", step) for step in steps if "rk4" in selected]
     settings += [Setting(method, x) for method in selected if method in ADAPTIVE for x in tolerances]
     checks = [method for method in selected if method in python_driver.NAMES]
@@ -196,52 +196,52 @@ def measure_scene(
     return replace(scene_bench, left_out=(*left_out, *scene_bench.left_out))
 
 
-def list_default_steps(
+def list_bench_steps(
     simulation: Simulation, parameters: Parameters | None = None, quick: bool = False
 ) -> tuple[float, ...]:
-    """Return the steps 1, 2, 5 · 10^k s, ascending, from a fifth to 200 times the step of a plain run.
+    """Return the steps 1, 2, 5 · 10^k s, ascending, from MIN_STEP_FACTOR to MAX_STEP_FACTOR times the default step.
 
-    With `quick` they begin at the step of a plain run itself. `parameters` None: the values of the file.
+    With `quick` they begin at the default step of the scene itself. `parameters` None: the values of the file.
     """
     usual = find_default_step(simulation, parameters)
-    return measured.list_round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
+    return list_round_numbers(usual * (1 if quick else MIN_STEP_FACTOR), usual * MAX_STEP_FACTOR)
 
 
 def select_references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
-    """Return the settings of both reference runs: two methods at much tighter tolerances, or one method at two
-    tolerances.
+    """Return the settings of both reference runs: the methods of REFERENCES that the scene supports.
 
-    In a scene that allows only fixed steps, they are the finest of the tested `settings` divided by 4 and by 8.
+    With one such method, it is used at two tolerances. In a scene that allows only fixed steps, the steps are the
+    smallest of the tested `settings` divided by 4 and by 8 (REFERENCE_STEP_DIVISORS).
     """
     fitting = [setting for setting in REFERENCES if setting.method in simulation.source.methods]
     if fitting:
-        return fitting[0], fitting[1] if len(fitting) > 1 else replace(fitting[0], value=SECOND)
+        return fitting[0], fitting[1] if len(fitting) > 1 else replace(fitting[0], value=SECOND_REFERENCE_RTOL)
     finest = min(settings, key=lambda setting: setting.value)
-    return finest.refine(FINER[0]), finest.refine(FINER[1])
+    return finest.refine(REFERENCE_STEP_DIVISORS[0]), finest.refine(REFERENCE_STEP_DIVISORS[1])
 
 
 def _measure_settings(
-    window: SceneWindow, settings: Sequence[Setting], reference_settings: Sequence[Setting], progress: Report
+    window: SceneWindow, settings: Sequence[Setting], reference_settings: Sequence[Setting], progress: ReportProgress
 ) -> SceneBench:
-    """Run the two references, then measure every setting against them, and return the bench of the scene.
+    """Run the two references, then measure every setting against them, and return the rows of the scene.
 
-    The shortest contact is taken from the first successful reference. If a reference failed, the agreement is infinite,
-    so that no error counts as resolved. After Ctrl-C the times of the right-hand side are left out.
+    The shortest contact is that of the first successful reference. If a reference failed, the agreement is infinite,
+    so no error counts as resolved. Ctrl-C during the references raises KeyboardInterrupt; later it leaves out the
+    remaining settings and the times of the right-hand side.
     """
     count = len(settings) + len(reference_settings)
 
     def run_setting(index: int, setting: Setting) -> Attempt:
-        """Run one setting and report progress; `index` is its number among references and settings.
+        """Run one setting over the window, report progress, and return the outcome.
 
-        Cross-checks by solvers in Python are stopped after CROSS_CHECK_LIMIT_S seconds. Returns the attempt.
+        index: number among references and settings, for the progress. Cross-checks, which are solvers called from
+        Python, are stopped after CROSS_CHECK_LIMIT_S seconds.
         """
         text = f"{setting.method} {setting}"
         limited = replace(window, limit=CROSS_CHECK_LIMIT_S) if setting.method in python_driver.NAMES else window
         return limited.run(setting, lambda fraction, _: progress((index + fraction) / count, text))
 
-    reference_attempts = [
-        run_setting(index, setting) for index, setting in enumerate(reference_settings)
-    ]  # without them there is nothing to say
+    reference_attempts = [run_setting(index, setting) for index, setting in enumerate(reference_settings)]
     successful = [a for a in reference_attempts if a.run is not None and not a.failure]
     agreement, contact = Error(math.inf, math.inf, math.inf), NAN
     if successful and successful[0].run is not None:
@@ -274,10 +274,11 @@ def _measure_rows(
     references: Sequence[Attempt],
     run_setting: Callable[[int, Setting], Attempt],
 ) -> tuple[list[Row], list[str], int]:
-    """Measure the settings in order; return their rows, reasons for omitted settings, and how many Ctrl-C left out.
+    """Measure the settings in order; return rows, reasons for omitted settings, and the number left out by Ctrl-C.
 
-    run_setting: runs the k-th setting and returns its attempt. If a cross-check is stopped, or takes longer than
-    MAX_CROSS_CHECK_S seconds, its tighter settings are left out.
+    run_setting: function that runs the k-th setting and returns its outcome. A run that is stopped at its limit has no
+    row. If a cross-check is stopped, or takes longer than MAX_CROSS_CHECK_S seconds, its tighter tolerances are left
+    out. settings: of one method from the loosest tolerance on.
     """
     rows: list[Row] = []
     slow: dict[str, str] = {}
@@ -305,15 +306,15 @@ def _measure_rows(
 
 
 def _read_run_time(attempt: Attempt) -> float:
-    """Return the wall time (s) that the run of an attempt needed; 0 if the attempt has no result."""
+    """Return the wall time (s) of the integration of a run; 0 for an outcome without a result."""
     return attempt.run.diagnostics.seconds if attempt.run is not None else 0.0
 
 
 def _measure_row(window: SceneWindow, attempt: Attempt, references: Sequence[Attempt]) -> Row:
-    """Return the row of an attempt: its error against a reference by another method, and its run time by repeated runs.
+    """Return the row of a run: its error against a reference by another method, and its run time by repeated runs.
 
-    A failed attempt gets a row with the failure, and is not timed. A cross-check that took longer than
-    `window.timing_budget` is not repeated.
+    A failed run gets a row with the failure, and is not timed. The error is NaN without references. A cross-check that
+    took longer than `window.timing_budget` is not repeated.
     """
     if attempt.failure or attempt.run is None:
         return Row(
@@ -331,7 +332,7 @@ def _measure_row(window: SceneWindow, attempt: Attempt, references: Sequence[Att
     method_names = diagnostics.method.split("+")
     reference = find_independent_reference(
         [*method_names, method_names[0].rpartition(":")[2].lower()], references
-    )  # nor by the same from elsewhere
+    )  # nor by the same method of another library
     error = compare_runs(attempt.run, reference.run) if reference is not None and reference.run is not None else Error()
     known_seconds = diagnostics.seconds if attempt.setting.method in python_driver.NAMES else 0.0
     seconds = known_seconds if known_seconds > window.timing_budget else window.measure_run_time(attempt.setting)
@@ -347,7 +348,7 @@ def _measure_row(window: SceneWindow, attempt: Attempt, references: Sequence[Att
 
 
 def find_independent_reference(methods: Iterable[str], references: Sequence[Attempt]) -> Attempt | None:
-    """Return the first reference whose method is not among `methods`, else the last one; None without references."""
+    """Return the first reference run whose method is not in `methods`, else the last one; None without references."""
     return next(
         (attempt for attempt in references if attempt.setting.method not in methods),
         references[-1] if references else None,
@@ -359,13 +360,13 @@ def _measure_kinematic_scene(
     parameters: Parameters,
     sample_counts: Sequence[int],
     t_end: float | None,
-    progress: Report | None,
+    progress: ReportProgress | None,
 ) -> SceneBench:
-    """Measure the kinematic method of a scene without degrees of freedom for each number of samples in `sample_counts`.
+    """Measure the kinematic analysis of a scene with dof = 0 for each number of sample intervals in `sample_counts`.
 
-    The error is the residual of the constraint equations after Newton's method, divided by the size of the mechanism.
-    t_end (s): by default the end of a plain run; None or 0 mean the default. A failed run gets a row with the failure.
-    Returns a SceneBench.
+    The error is the largest residual of the constraint equations divided by the size of the mechanism; there are no
+    references. t_end (s): None or 0 means the end of the scene's run. A failed run gets a row with the failure. Returns
+    a SceneBench.
     """
     window = SceneWindow(simulation, t_end or evaluate_end(simulation.compiled, parameters), parameters)
     rows = []

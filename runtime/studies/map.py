@@ -1,8 +1,8 @@
-"""Classify runs over a grid or a box of parameters as stable, inaccurate, diverged or outside the model.
+"""Sweep parameters over a grid or a box, and classify the runs as stable, inaccurate, diverged or outside the model.
 
-Two criteria apply to a run. It must remain valid over a good part of the motion: finite, closed, energy accounted for,
-no contact lost. It must also agree with a finer run, a tenth of the step or a hundredth of the tolerance, over the
-first few contacts. `verdicts.Limits` has the numbers; every cell has its reason.
+Two criteria apply to a run. It must remain valid over a long part of the motion: finite, constraints satisfied, energy
+balanced, no contact missed. It must also agree with a finer run, a tenth of the step or a hundredth of the tolerance,
+over the first few contacts. `verdicts.Limits` has the numbers; every cell has its reason.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GAINS, Axis, make_axis, make_clearance_axis
 from gudgeon.studies.box import Range, judge_point, list_corners, sample_sobol_points
 from gudgeon.studies.runs import (
-    FIXED,
+    FIXED_STEP_METHODS,
     NAN,
     Attempt,
     Parameters,
@@ -39,21 +39,22 @@ from gudgeon.studies.runs import (
     find_default_step,
     list_round_numbers,
 )
-from gudgeon.studies.threads import Pool, Report
+from gudgeon.studies.threads import ReportProgress, TaskPool
 from gudgeon.studies.verdicts import Cell, Limits, Status, check_memory_of_cells, judge_runs, make_missing_cell
 
-LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
-COARSEST = 200  # the longest step, of the shortest scene's
-CLEARANCES = (1 / 6, 10 / 3)  # the axis, of the file's clearance
+MAX_LONG_RUN_STEPS = 300_000  # default length of the long runs, in steps of the smallest step
+MAX_COMPARISON_STEPS = 1_000_000  # maximum length of the comparison window, in steps of the smallest reference step
+MAX_STEP_FACTOR = 200  # the longest step on the axis, as a multiple of the smallest default step of the scenes
+CLEARANCE_FACTORS = (1 / 6, 10 / 3)  # range of the default axis, as multiples of the clearance in the file
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
-USUAL = 1e-8  # tolerance where neither axis is one
-FINER = 10
-MOST_POINTS = 10**6
-LIMIT = 120.0  # s of processor time of a run
+DEFAULT_RTOL = 1e-8  # tolerance of the runs if no axis is the tolerance
+REFERENCE_STEP_DIVISOR = 10  # a step h is compared with h/10
+MAX_BOX_POINTS = 10**6
+CPU_LIMIT_S = 120.0  # s, maximum processor time of a run
 
 
 class _Verdicts:
-    """Base class of maps and boxes that Ctrl-C may leave incomplete."""
+    """Base class of the results of a parameter sweep, which Ctrl-C may leave incomplete."""
 
     cells: tuple[Cell, ...]
 
@@ -70,21 +71,21 @@ class _Verdicts:
 
 @dataclass(frozen=True)
 class VerdictMap(_Verdicts):
-    """The cells of one scene over two axes, column by column; both axes ascend."""
+    """Verdicts on the runs of one scene over two axes, column by column; both axes ascend."""
 
     scene: str
-    setting: Setting  # its value counts where neither axis is the method's
+    setting: Setting  # its value applies if no axis is the step or tolerance
     rows: Axis
     columns: Axis
     cells: tuple[Cell, ...]
-    t_long: float  # s, over which stability is judged
+    t_long: float  # s, length of the long runs
     full: bool = False  # whether the full formulation is used, in which Baumgarte's gains act
 
     def get_cell(self, row_value: float, column_value: float) -> Cell:
-        """Return the cell at a value of the row axis and a value of the column axis.
+        """Return the cell at a value of the row axis and a value of the column axis, compared exactly.
 
-        A column of NaN, as in a scene without play, means the first one. Raises KeyError if the map does not have the
-        values.
+        A column of NaN, as in a scene without play, means the first one. Raises KeyError for a value that is not on the
+        axes.
         """
         if row_value not in self.rows.values or (
             column_value not in self.columns.values and column_value == column_value
@@ -94,10 +95,10 @@ class VerdictMap(_Verdicts):
         return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row_value)]
 
     def find_largest_stable_row(self, column_value: float) -> float:
-        """Return the largest row value of a column such that its cell and all those at smaller row values are stable.
+        """Return the stability limit of a column: the largest row value up to which all cells of the column are stable.
 
-        NaN if the cell at the smallest row value is not stable. Raises KeyError for a column that the map does not
-        have.
+        NaN if the cell at the smallest row value is not stable. Raises KeyError for a column value that is not on the
+        axis.
         """
         largest = NAN
         for row in self.rows.values:
@@ -109,12 +110,12 @@ class VerdictMap(_Verdicts):
 
 @dataclass(frozen=True)
 class VerdictBox(_Verdicts):
-    """The cells of all corners of a box, then of Sobol points in it."""
+    """Verdicts on the runs of one scene at all corners of a box, then at Sobol points in it."""
 
     scene: str
     setting: Setting
     ranges: tuple[Range, ...]
-    points: tuple[Mapping[str, float], ...]  # of the cells: range -> value
+    points: tuple[Mapping[str, float], ...]  # one for each cell: name of a range -> value
     cells: tuple[Cell, ...]
     t_long: float
     full: bool = False
@@ -131,7 +132,7 @@ def compute_verdict_map(
     parameters: Parameters | None = None,
     limits: Limits | None = None,
     quick: bool = False,
-    progress: Report | None = None,
+    progress: ReportProgress | None = None,
 ) -> VerdictMap:
     """Judge every pair of values of at most two axes, by default tolerance (rk4: step) × clearance, and return the map.
 
@@ -150,19 +151,20 @@ def compute_verdict_map(
     simulation = simulation.full if full else simulation
     rows, columns = arrange_axes(simulation, axes, method, parameter_values, quick)
     default_setting = Setting(
-        method, value or (find_default_step(simulation, parameter_values) if method in FIXED else USUAL)
+        method,
+        value or (find_default_step(simulation, parameter_values) if method in FIXED_STEP_METHODS else DEFAULT_RTOL),
     )
     check_memory_of_cells(len(rows.values) * len(columns.values))
     jobs = _build_jobs(simulation, rows, columns, default_setting, parameter_values)
     shortest_step = (
         min(setting.value for job in jobs for setting in job.settings) if default_setting.has_fixed_step else math.inf
     )
-    t_long = t_long or min(evaluate_end(simulation.compiled, parameter_values), LONG * shortest_step) / (
+    t_long = t_long or min(evaluate_end(simulation.compiled, parameter_values), MAX_LONG_RUN_STEPS * shortest_step) / (
         10 if quick else 1
     )
-    max_window = t_short or SHORT * shortest_step / FINER / (10 if quick else 1)
-    with Pool[_MapJob, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
-        cell_lists = pool.map(
+    max_window = t_short or MAX_COMPARISON_STEPS * shortest_step / REFERENCE_STEP_DIVISOR / (10 if quick else 1)
+    with TaskPool[_MapJob, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
+        cell_lists = pool.map_in_threads(
             lambda job, progress: _judge_job(simulation, job, t_long, max_window, limits, progress), jobs
         )
     missing = ([make_missing_cell(job.parameters, setting) for setting in job.settings] for job in jobs)
@@ -177,18 +179,18 @@ def compute_verdict_map(
 def arrange_axes(
     simulation: Simulation, axes: Sequence[Axis], method: str, parameters: Parameters, quick: bool = False
 ) -> tuple[Axis, Axis]:
-    """Return the axes of rows and of columns of a map from at most two axes; missing ones get default values.
+    """Return the axis of the rows and the axis of the columns of a map from at most two axes, with defaults for others.
 
-    The axis of the method (step of rk4, else rtol) is always the rows; of two parameter axes, the second one is.
-    `quick`: fewer default values. Raises BadValueError for more than two or equal axes, one that does not fit the
-    method, or values that are not positive.
+    The axis of the method (step or rtol) is always the rows; of two parameter axes, the second one is. Defaults: the
+    steps or tolerances of the method, and the clearance. quick: fewer default values. Raises BadValueError for more
+    than two axes, equal axes, an axis that does not fit the method, or steps or tolerances that are not positive.
     """
     method_axes, parameter_axes = [a for a in axes if a.is_method_setting], [a for a in axes if not a.is_method_setting]
-    expected = "step" if method in FIXED else "rtol"
+    expected = "step" if method in FIXED_STEP_METHODS else "rtol"
     if len(axes) > 2 or len(method_axes) > 1 or len({a.name for a in axes}) < len(axes):
         raise BadValueError(f"axes {', '.join(a.name for a in axes)}: expected two different ones, step or rtol once")
     if method_axes and method_axes[0].name != expected:
-        raise BadValueError(f"axis {method_axes[0].name} does not fit: method {method} takes a {expected}")
+        raise BadValueError(f"axis {method_axes[0].name} does not fit: method {method} has the setting {expected}")
     if any(not value > 0 for a in method_axes for value in a.values):
         raise BadValueError(f"axis {expected}: expected positive values")
     if len(parameter_axes) == 2:
@@ -196,7 +198,11 @@ def arrange_axes(
     if not method_axes:
         tolerances = TOLERANCES[1:3] if quick else TOLERANCES
         method_axes = [
-            make_axis(simulation, expected, list_default_steps([simulation], quick) if method in FIXED else tolerances)
+            make_axis(
+                simulation,
+                expected,
+                list_map_steps([simulation], quick) if method in FIXED_STEP_METHODS else tolerances,
+            )
         ]
     return method_axes[0], parameter_axes[0] if parameter_axes else _build_clearance_axis(simulation, parameters, quick)
 
@@ -212,11 +218,11 @@ def compute_verdict_box(
     limits: Limits | None = None,
     addresses: Mapping[str, Axis] | None = None,
     quick: bool = False,
-    progress: Report | None = None,
+    progress: ReportProgress | None = None,
 ) -> VerdictBox:
     """Judge all corners of the box of parameters `ranges` and `count` Sobol points in it, and return the verdicts.
 
-    `setting`: by default method auto at tolerance USUAL. `addresses`: axes for names of ranges that are groups.
+    `setting`: by default method auto at tolerance DEFAULT_RTOL. `addresses`: axes for names of ranges that are groups.
     `quick`: over a tenth of the time. Other arguments are as in `compute_verdict_map`. After Ctrl-C the cells so far
     are returned. Raises BadValueError for invalid arguments or a point outside the valid parameters, MemoryError for
     too many points.
@@ -224,16 +230,16 @@ def compute_verdict_box(
     _check_dynamic(simulation)
     ranges, count = (
         check_list(ranges, "ranges", Range, "a list of Range"),
-        check_integer(count, "count", 0, MOST_POINTS),
+        check_integer(count, "count", 0, MAX_BOX_POINTS),
     )
     limits, quick = check_optional_instance(limits, "limits", Limits), check_flag(quick, "quick")
     t_long, parameters = check_optional_positive(t_long, "t_long"), check_mapping(parameters, "parameters")
     progress, setting = (
         check_callable(progress, "progress"),
-        check_optional_instance(setting, "setting", Setting) or Setting("auto", USUAL),
+        check_optional_instance(setting, "setting", Setting) or Setting("auto", DEFAULT_RTOL),
     )
     if not ranges:
-        raise BadValueError("a box wants ranges: --range name=low..high")
+        raise BadValueError("a box needs at least one range: --range name=low..high")
     t_long = t_long or evaluate_end(simulation.compiled, parameters) / (10 if quick else 1)
     group_axes = {
         name: check_instance(range_, f"addresses: {name}", Axis)
@@ -245,7 +251,10 @@ def compute_verdict_box(
     simulation = simulation.full if full else simulation
 
     def find_point_parameters(point: Mapping[str, float]) -> dict[str, float | str]:
-        """Return the parameters of `simulate` at a point of the box; a group sets all its addresses."""
+        """Return the parameters of `simulate` at a point of the box, on top of `parameters`.
+
+        A range of a group sets all addresses of the group.
+        """
         settings = (
             group_axes[name].build_parameters(value) if name in group_axes else {name: value}
             for name, value in point.items()
@@ -254,16 +263,16 @@ def compute_verdict_box(
             address: value for parameter_values in settings for address, value in parameter_values.items()
         }
 
-    def judge_one_point(point: Mapping[str, float], progress: Report) -> Cell:
-        """Return the verdict on one point, and report the progress of its runs."""
-        return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, LIMIT, progress)
+    def judge_one_point(point: Mapping[str, float], progress: ReportProgress) -> Cell:
+        """Run and judge one point of the box in a worker thread, and return its cell."""
+        return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, CPU_LIMIT_S, progress)
 
     check_memory_of_cells(2.0 ** len(ranges) + count)
     points = [*list_corners(ranges), *sample_sobol_points(ranges, count)]
     for point in points:
         prepare_values(simulation.compiled, find_point_parameters(point))
-    with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
-        cells_or_none = pool.map(judge_one_point, points)
+    with TaskPool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
+        cells_or_none = pool.map_in_threads(judge_one_point, points)
     cells = tuple(
         cell or make_missing_cell(find_point_parameters(point), setting)
         for cell, point in zip(cells_or_none, points, strict=True)
@@ -272,29 +281,28 @@ def compute_verdict_box(
 
 
 def is_full_formulation_needed(axes: Sequence[Axis], method: str) -> bool:
-    """Return whether an axis sets Baumgarte's gains, so that the scene must be run in the full formulation.
+    """Return whether an axis varies the gains of Baumgarte's stabilization, which only the full formulation has.
 
-    Raises BadValueError for gains with a method other than rk4, since those methods project onto the constraints.
+    Raises BadValueError for such an axis with a method other than rk4: other methods project onto the constraints.
     """
     gains_axis = next((a.name for a in axes if any(address in GAINS for address, _ in a.ratios)), "")
     if gains_axis and method != "rk4":
-        raise BadValueError(f"axis {gains_axis}: method {method!r} projects and has no gains", hint="take --method rk4")
+        raise BadValueError(f"axis {gains_axis}: method {method!r} projects and has no gains", hint="use --method rk4")
     return bool(gains_axis)
 
 
 def _count_judged(cells: Sequence[Cell]) -> tuple[int, int]:
-    """Return the number of cells with a verdict, and the number of all cells."""
+    """Return the number of cells with another status than MISSING, and the number of all cells."""
     return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
 
 
-def list_default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
-    """Return the steps 1, 2, 5 · 10^k s, ascending, from the shortest step of a plain run of any scene to 200 times
-    that.
+def list_map_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
+    """Return the steps 1, 2, 5 · 10^k s, ascending, from the smallest default step of the scenes to 200 times that.
 
     With `quick` it is every second of them from the fourth on.
     """
-    plain_step = min(find_default_step(simulation) for simulation in simulations)
-    steps = list_round_numbers(plain_step, COARSEST * plain_step)
+    min_step = min(find_default_step(simulation) for simulation in simulations)
+    steps = list_round_numbers(min_step, MAX_STEP_FACTOR * min_step)
     return steps[3::2] if quick else steps
 
 
@@ -305,13 +313,13 @@ def list_default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
     """
     if quick:
         return (c,)
-    return tuple(sorted({*list_round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
+    return tuple(sorted({*list_round_numbers(CLEARANCE_FACTORS[0] * c, CLEARANCE_FACTORS[1] * c), float(f"{c:.6g}")}))
 
 
 def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
-    """Return the default axis of clearances, without values that violate conditions of the file.
+    """Return the default axis of clearances, without values with which the parameters are invalid.
 
-    For example, a clearance must stay below the radius of its bearing. In a scene without play the only value is NaN.
+    For example, a clearance must be less than the radius of its bearing. In a scene without play the only value is NaN.
     """
     if not simulation.source.clearances:
         return make_clearance_axis(simulation, ())
@@ -330,16 +338,16 @@ def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick:
 
 @dataclass(frozen=True)
 class _MapJob:
-    """Parameters of runs with all settings that are judged for them."""
+    """Task of one worker thread: parameters of a run, and all settings that are judged with them."""
 
     parameters: dict[str, float | str]
     settings: tuple[Setting, ...]
 
 
 def _check_dynamic(simulation: Simulation) -> None:
-    """Raise BadValueError if the scene has no degree of freedom, so that there is no step or tolerance to judge."""
+    """Raise BadValueError if the scene has no degree of freedom, so that it has no step or tolerance to judge."""
     if simulation.source.degrees_of_freedom == 0:
-        raise BadValueError(f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose")
+        raise BadValueError(f"scene {simulation.source.scene!r} has no degree of freedom: no motion is integrated")
 
 
 def _build_jobs(
@@ -349,17 +357,17 @@ def _build_jobs(
     default_setting: Setting,
     fixed_parameters: dict[str, float | str],
 ) -> list[_MapJob]:
-    """Return the jobs of a map column by column; their cells in order are those of the map.
+    """Return the jobs of a map column by column; the cells of all jobs, in order, are those of the map.
 
-    If the rows are steps, a job has all steps of a column, which serve as references for each other; otherwise each job
-    has one cell. All parameters are checked here: raises BadValueError for an invalid value.
+    If the rows are steps, a job has all steps of a column, since a run with a tenth of a step may also be a row.
+    Otherwise each job has one cell. All parameters are checked here: raises BadValueError for an invalid value.
     """
     jobs = []
     for column_value in columns.values:
         if rows.is_method_setting:
             settings = tuple(Setting(default_setting.method, row_value) for row_value in rows.values)
             parameters = {**fixed_parameters, **columns.build_parameters(column_value)}
-            # fixed steps are references for each other, tolerances are judged alone
+            # runs of fixed steps are shared as references, tolerances are judged one by one
             jobs += (
                 [_MapJob(parameters, settings)]
                 if default_setting.has_fixed_step
@@ -379,31 +387,45 @@ def _build_jobs(
 
 
 def _judge_job(
-    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, progress: Report
+    simulation: Simulation,
+    job: _MapJob,
+    t_long: float,
+    max_window: float,
+    limits: Limits | None,
+    progress: ReportProgress,
 ) -> list[Cell]:
-    """Return the cells of a job: fixed steps are judged together, a tolerance is judged like a point of a box.
+    """Run and judge a job in a worker thread and return its cells, one for each setting.
 
-    t_long (s): end of the long runs. max_window (s): bound of the window of comparison, for fixed steps only. Progress
-    goes to `progress`. limits None: those of each setting.
+    Fixed steps are judged together, a tolerance is judged like a point of a box. t_long (s): end of the long runs.
+    max_window (s): maximum length of the comparison window, for fixed steps only. limits: None means those of the
+    setting.
     """
     if job.settings[0].has_fixed_step:
         return _judge_steps(simulation, job, t_long, max_window, limits, progress)
-    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, progress)]
+    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, CPU_LIMIT_S, progress)]
 
 
 def _judge_steps(
-    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, progress: Report
+    simulation: Simulation,
+    job: _MapJob,
+    t_long: float,
+    max_window: float,
+    limits: Limits | None,
+    progress: ReportProgress,
 ) -> list[Cell]:
     """Return the cells of a job with fixed steps, each from a long run and a comparison with a tenth of the step.
 
-    The comparison is over the first contacts, or over at most `max_window` (s). If the finer run is also a long one
-    without contact, the long runs are compared, too. The progress is weighted by the number of steps of each run.
+    The comparison is over the first contacts, or over at most `max_window` (s). If a tenth of the step is a setting of
+    the job, too, and its long run has no contact, the long runs are compared as well. The progress is weighted by the
+    number of steps of each run.
     """
     steps = [setting.refine(1) for setting in job.settings]
     shortest = min(find_default_step(simulation), *(setting.value for setting in steps))
     short_window = find_comparison_window(simulation, max_window, Setting("rk4", shortest), job.parameters)
     long_window = SceneWindow(simulation, t_long, job.parameters)
-    all_steps = sorted({x for step in steps for x in (step, step.refine(FINER))}, key=lambda x: -x.value)
+    all_steps = sorted(
+        {x for step in steps for x in (step, step.refine(REFERENCE_STEP_DIVISOR))}, key=lambda x: -x.value
+    )
     runs = [
         (window, step) for window, expected in ((short_window, all_steps), (long_window, steps)) for step in expected
     ]
@@ -415,18 +437,18 @@ def _judge_steps(
         completed += fraction
     cells = []
     for step in steps:
-        reference = step.refine(FINER)
+        reference = step.refine(REFERENCE_STEP_DIVISOR)
         pairs = [(attempts[short_window, step], attempts[short_window, reference])]
         fine = attempts.get((long_window, reference))
         if fine is not None and fine.run is not None and not len(fine.run.impacts):
-            pairs.append((attempts[long_window, step], fine))  # without contact errors mean something for longer
+            pairs.append((attempts[long_window, step], fine))  # without contacts, errors are meaningful for longer
         cells.append(judge_runs(job.parameters, attempts[long_window, step], pairs, limits))
     return cells
 
 
-def _scale_progress(progress: Report, begin: float, length: float) -> Report:
-    """Return a progress function for one run of a job, which maps its progress to [begin, begin + length].
+def _scale_progress(progress: ReportProgress, begin: float, length: float) -> ReportProgress:
+    """Return a progress function for one run of a job, which maps fractions 0 … 1 to begin … begin + length.
 
-    progress: the progress function of the whole job, which receives the mapped progress.
+    progress: the progress function of the whole job, which it calls.
     """
     return lambda fraction, text: progress(begin + length * fraction, text)

@@ -25,19 +25,20 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Setting, find_comparison_window, find_default_step
 
 ADAPTIVE = (*CHOOSING, "auto")
-BATCH, REPEATS = 20_000, 9
+CALLS_PER_BATCH, N_BATCHES = 20_000, 9  # of the right-hand side, to measure its time
 
 
 def has_adaptive_method(simulation: Simulation) -> bool:
-    """Return whether the scene supports any method with step-size control."""
+    """Return whether the scene supports any method with step-size control (adaptive steps)."""
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
 def select_methods(simulation: Simulation, requested: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
-    """Return the methods that are measured in a scene, and sentences with the reasons for those left out.
+    """Return the methods that are measured in a scene, and a sentence for each cross-check that cannot run here.
 
-    requested: names, or patterns such as "scipy:*"; None means all that fit, with `quick` without the cross-checks,
-    which are slow. Raises BadValueError for a name or pattern that no method has, or if none of the methods fits.
+    requested: names, or patterns such as "scipy:*"; None means all that the scene supports, with `quick` without the
+    cross-checks, which are slow. A requested method with step-size control that the scene does not support is left out
+    without a sentence. Raises BadValueError for a name or pattern that no method has, or if no method is left.
     """
     own_methods = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
     all_methods = (*own_methods, *python_driver.NAMES)
@@ -67,7 +68,7 @@ def select_methods(simulation: Simulation, requested: Sequence[str] | None, quic
         else:
             fitting.append(method)
     if not fitting:
-        message = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
+        message = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} allows a fixed step only: rk4"]
         raise BadValueError("none of the methods fits", hint="; ".join(message))
     return fitting, list(dict.fromkeys(left_out))
 
@@ -77,20 +78,20 @@ class RhsTime:
     """Time of one call of ẏ = f(t, y), at one state."""
 
     state: str  # "start", or which joint is in contact
-    seconds: float  # the least over several batches
-    operations: int  # additions, multiplications, divisions, functions on the way that this state takes
+    seconds: float  # minimum over several batches
+    operations: int  # additions, multiplications, divisions and function calls in the branches of this state
     t: float
     q: Array  # (n,)
     v: Array
 
 
 def measure_rhs_time(
-    simulation: Simulation, max_window: float, batch: int = BATCH, repeats: int = REPEATS
+    simulation: Simulation, max_window: float, batch: int = CALLS_PER_BATCH, repeats: int = N_BATCHES
 ) -> list[RhsTime]:
-    """Measure the time of one right-hand side at the start and, if a joint touches within `max_window` (s), at its
-    first peak force.
+    """Measure the time of one right-hand side at the start, and at the peak force of the first contact if there is one.
 
-    Return one or two RhsTime in this order. Each time is the least of `repeats` batches of `batch` calls.
+    Returns one or two RhsTime in this order; the second if a joint touches within `max_window` (s). Each time is the
+    minimum of `repeats` batches of `batch` calls.
     """
     start = simulation.start()
     open_contacts = simulation.compiled.as_discrete_states(None)
@@ -106,11 +107,10 @@ def measure_rhs_time(
     return times
 
 
-def count_operations(simulation: Simulation, closed_joints: list[str] | None = None) -> int:
-    """Return the number of operations of one right-hand side: equations of motion, all films, dry forces of the closed
-    joints.
+def count_rhs_operations(simulation: Simulation, closed_joints: list[str] | None = None) -> int:
+    """Return the number of operations of one right-hand side: equations of motion, all films, active contact forces.
 
-    closed_joints: names of the joints in contact; None means none.
+    closed_joints: names of the joints in contact, whose dry contact forces count; None means none.
     """
     total = 0
     for kernel, count in simulation.source.operations.items():
@@ -121,9 +121,9 @@ def count_operations(simulation: Simulation, closed_joints: list[str] | None = N
 
 
 def _run_to_first_contact(simulation: Simulation, max_window: float) -> Result | None:
-    """Return a run (rk4) that ends at the peak force of the first contact within `max_window` (s).
+    """Return a run (rk4, default step) that ends at the peak force of the first contact within `max_window` (s).
 
-    None for a scene without play, without a contact, if the run fails, or if no joint is in contact at its end.
+    None for a scene without play, without a contact, if a run fails, or if no joint is in contact at its end.
     """
     if not simulation.source.clearances:
         return None
@@ -150,10 +150,10 @@ def _measure_rhs_at_state(
     repeats: int,
     closed_joints: list[str] | None = None,
 ) -> RhsTime:
-    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in C.
+    """Measure the time of one right-hand side at (t, q, v), as the minimum of `repeats` batches of `batch` calls in C.
 
-    state: text that describes it. q, v: coordinates and velocities. closed_joints: names of the joints in contact, for
-    the number of operations. None: no joint is in contact.
+    state: text that describes the state. q, v: coordinates and velocities. discrete_states: contact states. The works
+    are 0. closed_joints: names of the joints in contact, for the number of operations only; None means none.
     """
     model = simulation.compiled
     y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.as_discrete_states(discrete_states)
@@ -163,4 +163,4 @@ def _measure_rhs_at_state(
         before = time.perf_counter()
         model.lib.gudgeon_time_rhs(*arguments)
         shortest = min(shortest, (time.perf_counter() - before) / batch)
-    return RhsTime(state, shortest, count_operations(simulation, closed_joints), t, q.copy(), v.copy())
+    return RhsTime(state, shortest, count_rhs_operations(simulation, closed_joints), t, q.copy(), v.copy())

@@ -1,4 +1,4 @@
-"""Own the runs that `gudgeon bench` and `gudgeon map` compare: method, step or tolerance, window, difference."""
+"""Own the runs that `gudgeon bench` and `gudgeon map` compare: method, step or tolerance, time window, error norms."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from gudgeon.studies.show.tables import format_seconds
 
 NAN = math.nan
 Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
-ONSETS = 4  # contacts that a window holds: after more of them dry motion is chaotic
-PILOTS = 6  # the first pilot run is 2^-6 of the longest window
-MIN_SAMPLES = 100  # at least so many in a window
-FIXED = ("rk4", "kinematic")  # methods that are given a step
+N_ONSETS = 4  # onsets of contacts in a comparison window: after more of them, dry contact is chaotic
+N_PILOT_HALVINGS = 6  # the first pilot run has 2^-6 of the length of the longest window
+MIN_SAMPLES = 100  # minimum number of sample intervals in a window
+FIXED_STEP_METHODS = ("rk4", "kinematic")  # methods whose setting is a step (s), not a tolerance
 MAX_REPEATS, TIMING_BUDGET_S = (
     25,
     0.5,
@@ -35,11 +35,11 @@ MAX_REPEATS, TIMING_BUDGET_S = (
 
 @dataclass(frozen=True)
 class Error:
-    """Largest differences of two runs over their common samples; NaN: the scene has no such quantity."""
+    """Scaled maximum norms of the difference of two runs over their common samples; NaN where a quantity is missing."""
 
-    motion: float = NAN  # of a coordinate: lengths by the mechanism's size, angles by 1 rad
-    path: float = NAN  # of a journal's centre, by the clearance
-    force: float = NAN  # of a joint's force, or of its peak over all steps, by the peak force
+    motion: float = NAN  # of the coordinates: lengths divided by the mechanism's size, angles by 1 rad
+    path: float = NAN  # of the journals' centres, divided by the clearance
+    force: float = NAN  # of the joint forces, or of their peaks over all steps, divided by the peak force
 
     @property
     def largest(self) -> float:
@@ -61,16 +61,16 @@ class Setting:
     @property
     def has_fixed_step(self) -> bool:
         """Return whether the value is a fixed step (s), and not a tolerance."""
-        return self.method in FIXED
+        return self.method in FIXED_STEP_METHODS
 
     def refine(self, factor: float) -> Setting:
-        """Return the same method with step or tolerance divided by `factor`, rounded to six digits so that equal
-        settings compare equal.
+        """Return the same method with the step or tolerance divided by `factor` and rounded to six digits.
 
-        A tolerance does not fall below the smallest one that the integrator accepts.
+        Rounding makes equal settings compare equal; a factor of 1 only rounds. A tolerance is at least MIN_RTOL, the
+        minimum of the integrator.
         """
-        least = 0.0 if self.has_fixed_step else MIN_RTOL
-        return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
+        min_value = 0.0 if self.has_fixed_step else MIN_RTOL
+        return Setting(self.method, max(float(f"{self.value / factor:.6g}"), min_value))
 
     def __str__(self) -> str:
         """Return the step with its unit, such as "10 µs", or the tolerance, such as "1e-8"."""
@@ -79,43 +79,42 @@ class Setting:
 
 @dataclass(frozen=True)
 class Attempt:
-    """One run: its result up to where it came, and the reason why it ended early ("" if it did not)."""
+    """Outcome of one run: its result, which ends at `failed_at` if the run failed, and the reason ("" for none)."""
 
     setting: Setting
     run: Result | None
     failure: str = ""
     failed_at: float = NAN  # s
-    slow: bool = False  # stopped because it took longer than it may
-    outside: bool = False  # stopped because the model does not hold there, and said so
-    cpu: float = NAN  # s of this thread's own time, samples included
+    slow: bool = False  # stopped at the limit of processor time
+    outside: bool = False  # stopped with an error that reports a state outside the validity of the model
+    cpu: float = NAN  # s, processor time of the thread, with the evaluation of samples
 
 
 @dataclass(frozen=True, eq=False)
 class SceneWindow:
-    """A scene with parameters and a window in time. A run with step h is sampled every max(h, sample_interval)."""
+    """A scene with parameters and a time window [0, t_end]; runs are sampled every max(step, sample_interval)."""
 
     simulation: Simulation
     t_end: float
     parameters: Parameters = field(default_factory=dict)
-    why: str = ""  # this window
-    limit: float = math.inf  # s of processor time that a run may take
+    why: str = ""  # reason for the end of the window, for display: "the first 4 contacts", "no contact" or ""
+    limit: float = math.inf  # s, maximum processor time of a run
     timing_budget: float = TIMING_BUDGET_S  # s, in total for the repetitions of a timed run
 
     @property
     def sample_interval(self) -> float:
-        """Return the interval of samples (s): a power of ten, so that steps 1, 2, 5 · 10^k divide it or are multiples
-        of it.
+        """Return the interval between samples (s): the largest power of ten that gives at least MIN_SAMPLES intervals.
 
-        The window contains at least MIN_SAMPLES intervals.
+        Steps 1, 2, 5 · 10^k then divide it or are multiples of it.
         """
         return 10.0 ** math.floor(math.log10(self.t_end / MIN_SAMPLES) + 1e-9)
 
     def run(self, setting: Setting, progress: Progress | None = None) -> Attempt:
-        """Run a setting over the window with samples at multiples of the sample interval, and return the outcome for
-        comparison.
+        """Simulate the window with a setting, sampled on a grid that runs of several steps share; return the outcome.
 
-        If a fixed step is longer than the sample interval, the samples are at multiples of it that are on the same
-        grid. The last sample may lie before the end of the window. `progress` None: nothing is reported.
+        Samples are at multiples of the sample interval, or of the largest multiple of it within a longer fixed step.
+        The last sample may lie before the end of the window. A failed run does not raise. `progress` None: nothing is
+        reported.
         """
         stride = max(1, math.floor(setting.value / self.sample_interval * (1 + 1e-9))) if setting.has_fixed_step else 1
         count = max(1, math.floor(self.t_end / (stride * self.sample_interval) * (1 + 1e-9)))
@@ -124,11 +123,10 @@ class SceneWindow:
         )
 
     def measure_run_time(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
-        """Return the wall time of the integration (s): the minimum of up to MAX_REPEATS runs that store only `output` +
-        1 samples.
+        """Return the wall time of the integration (s): the minimum of up to MAX_REPEATS equal runs.
 
-        Repetition ends after `timing_budget` seconds in total. NaN if a run fails. `progress` None: nothing is
-        reported.
+        output: number of sample intervals, 1 stores the two ends only. Repetition ends after `timing_budget` seconds in
+        total. NaN if a run fails. `progress` receives the progress of each run; None: nothing is reported.
         """
         shortest, total = math.inf, 0.0
         for _ in range(MAX_REPEATS):
@@ -142,7 +140,10 @@ class SceneWindow:
         return shortest
 
     def run_at_times(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
-        """Run a setting with samples at these times (s), and return the outcome; a failed run does not raise."""
+        """Simulate with a setting and samples at these times (s) from the first to the last, and return the outcome.
+
+        The processor time is limited to `limit` seconds. A failed run does not raise; Ctrl-C raises KeyboardInterrupt.
+        """
         return attempt_run(self.simulation, times, setting, self.parameters, progress, self.limit)
 
 
@@ -158,18 +159,19 @@ def attempt_run(
     progress: Progress | None = None,
     limit: float = math.inf,
 ) -> Attempt:
-    """Run a scene with one setting and return the outcome; a failed run is returned with its reason and does not raise.
+    """Simulate a scene with one setting and return the outcome; a failed run has its reason and does not raise.
 
-    times (s): samples. The run is stopped after `limit` seconds of processor time of this thread, and is then marked as
-    slow. Raises KeyboardInterrupt after Ctrl-C, unlike `simulate`, since half a comparison is of no use.
+    times (s): samples. After `limit` seconds of processor time of this thread the run is stopped, has no result and is
+    marked as slow. Events do not stop the run. After Ctrl-C it raises KeyboardInterrupt, where `simulate` would return
+    the part of the run.
     """
     start_time = time.thread_time()
     reached_fraction = 0.0
 
     def report_and_check_limit(fraction: float, text: str) -> None:
-        """Report the progress of the run, and stop it by an exception after the limit of processor time.
+        """Report the progress of the run; raise _TooSlowError after the limit of processor time.
 
-        Raises _TooSlowError.
+        The fraction is stored, from which the time of the stop follows.
         """
         nonlocal reached_fraction
         reached_fraction = fraction
@@ -216,7 +218,10 @@ def list_round_numbers(low: float, high: float) -> tuple[float, ...]:
 
 
 def find_default_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
-    """Return the step (s) of a plain run with these parameters: the one that the scene sets, or the default."""
+    """Return the fixed step (s) of a run with these parameters: the step of the scene in the file, or the default step.
+
+    parameters: as in `simulate`; None: the values of the file.
+    """
     p = prepare_values(simulation.compiled, parameters)[0]
     return evaluate_scene_step(simulation.compiled, p, evaluate_scene_end(simulation.source, p))
 
@@ -224,40 +229,40 @@ def find_default_step(simulation: Simulation, parameters: Parameters | None = No
 def find_comparison_window(
     simulation: Simulation, max_window: float, setting: Setting, parameters: Parameters | None = None
 ) -> SceneWindow:
-    """Return the scene with the time window over the first few contacts, or over `max_window` (s) if there are not so
-    many.
+    """Return a time window over the first N_ONSETS contacts, or over `max_window` (s) with fewer contacts.
 
-    The window ends half-way between the fourth onset and the next, which pilot runs with `setting` over growing windows
-    find. After many contacts two runs of a scene with dry contacts differ by any amount, however small the step, so
-    that errors mean nothing there. A window never exceeds a plain run. `parameters` None: the values of the file.
+    It ends half-way between the fourth onset and the next, rounded to two digits. Pilot runs with `setting`, each twice
+    as long as the previous one, find these onsets; a failed pilot run ends the search. After many dry contacts any two
+    runs differ, so errors are not meaningful there. `max_window` is limited to the end of the scene's run. parameters:
+    None means the values of the file.
     """
     parameters = dict(parameters or {})
     max_window = min(max_window, evaluate_end(simulation.compiled, parameters))
-    for power in range(PILOTS, -1, -1) if simulation.source.clearances else ():
+    for power in range(N_PILOT_HALVINGS, -1, -1) if simulation.source.clearances else ():
         duration = max_window / 2**power
         pilot = attempt_run(simulation, np.linspace(0.0, duration, 3), setting, parameters)
         onsets = np.zeros(0) if pilot.run is None else np.sort(pilot.run.impacts["t_on"])
-        if len(onsets) > ONSETS:
-            end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2
-            return SceneWindow(simulation, float(f"{end:.2g}"), parameters, f"the first {ONSETS} contacts")
+        if len(onsets) > N_ONSETS:
+            end = float(onsets[N_ONSETS - 1] + onsets[N_ONSETS]) / 2
+            return SceneWindow(simulation, float(f"{end:.2g}"), parameters, f"the first {N_ONSETS} contacts")
         if pilot.failure:
             break
     return SceneWindow(simulation, max_window, parameters, "no contact" if simulation.source.clearances else "")
 
 
 def compare_runs(run: Result, reference: Result) -> Error:
-    """Return the largest differences of two runs in motion, journal path and joint force.
+    """Return the scaled maximum norms of the difference of two runs in motion, journal path and joint force.
 
-    `reference` is sampled as often as `run`, or a whole number of times as often. If both end at the same time, peak
-    forces between samples count, too. All measures are NaN if a run has fewer than two samples; the path is NaN without
-    play, the force NaN without any force.
+    The sample interval of `run` is a whole multiple of that of `reference`. If both end at the same time, the peak
+    forces over all steps are compared, too. All measures are NaN if a run has fewer than two samples; the path is NaN
+    without play, the force NaN if `reference` has no force.
     """
     if len(run.t) < 2 or len(reference.t) < 2:
         return Error()
     motion, path, force = compute_differences(run, reference)
     peak_force = _find_peak_force(reference)
     largest_force = float(force.max()) if peak_force > 0 else NAN
-    if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: peaks between samples too
+    if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: compare peaks over all steps
         for peak, reference_peak in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
             largest_force = (
                 max(largest_force, abs(peak.F - reference_peak.F) / peak_force) if peak_force > 0 else largest_force
@@ -266,11 +271,10 @@ def compare_runs(run: Result, reference: Result) -> Error:
 
 
 def compute_differences(run: Result, reference: Result) -> tuple[Array, Array, Array]:
-    """Return motion, path and force differences of `Error` at every common sample, (N,) each, for the worst coordinate
-    and joint.
+    """Return the differences in motion, path and force, scaled as in `Error`, at every common sample, (N,) each.
 
-    `reference` may be sampled a whole number of times as often. Path is zero without play, force is zero without any
-    force.
+    Each is the maximum over the coordinates or joints. The sample interval of `run` is a whole multiple of that of
+    `reference`. Path is 0 without play, force is 0 if `reference` has no force.
     """
     stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
     count = min(len(run.t), (len(reference.t) - 1) // stride + 1)
@@ -294,9 +298,10 @@ def compute_differences(run: Result, reference: Result) -> tuple[Array, Array, A
 def _compute_vector_difference(
     run: Result, reference: Result, name: str, run_samples: slice, reference_samples: slice
 ) -> Array:
-    """Return the length of the difference of a joint's vector series `name`x, `name`y in two runs, (N,).
+    """Return the Euclidean norm of the difference of a joint's vector in two runs at every sample, (N,).
 
-    run_samples, reference_samples: the samples of each run that are compared.
+    name: of the series without the axis, such as "A.F" for A.Fx and A.Fy. run_samples, reference_samples: slices of
+    the same length that select the compared samples of each run.
     """
     return np.hypot(
         *(run[f"{name}{axis}"][run_samples] - reference[f"{name}{axis}"][reference_samples] for axis in "xy")
@@ -304,9 +309,9 @@ def _compute_vector_difference(
 
 
 def _find_peak_force(run: Result) -> float:
-    """Return the largest force (N) of any joint in a run, over its samples and its recorded peaks; 0 without joints.
+    """Return the largest force (N) of a run over its samples and its peaks over all steps; 0 without joints.
 
-    Joints with play are used if there are any, else all joints.
+    The samples are those of the joints with play or, in a scene without play, of all joints.
     """
     joints = run.source.clearances or run.source.joints
     sampled_peak = max((float(np.abs(run[f"{joint.name}.F"]).max()) for joint in joints), default=0.0)
@@ -314,7 +319,7 @@ def _find_peak_force(run: Result) -> float:
 
 
 def find_mechanism_size(run: Result) -> float:
-    """Return the size of the mechanism of a run, m, by which lengths and residuals are divided.
+    """Return the characteristic length of the mechanism of a run (m), the scale of lengths and residuals.
 
     Raises GudgeonError for a result that was read from a file, which has no compiled scene.
     """

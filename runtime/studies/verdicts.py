@@ -1,4 +1,4 @@
-"""Decide whether a run is stable, inaccurate, diverged or outside the model; every verdict has a reason."""
+"""Classify a run as stable, inaccurate, diverged or outside the validity of the model; every verdict has a reason."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from gudgeon.results.results import Result
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, compare_runs, find_mechanism_size
 from gudgeon.studies.show.tables import format_fraction, format_rough_fraction, format_seconds
 
-OF_A_CELL = 2048  # bytes of a cell, about: values, texts and its job
-Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and with a finer one
+CELL_BYTES = 2048  # approximate memory of a cell: values, texts and its job
+Pair: TypeAlias = tuple[Attempt, Attempt]  # runs over the same window with a setting and with a finer one
 
 
 class Status(StrEnum):
-    """Verdict on a run, from good to bad; a cell has the worst that applies. MISSING: interrupted by Ctrl-C."""
+    """Verdict on a run, from best to worst; a cell has the worst that applies. MISSING: interrupted by Ctrl-C."""
 
     STABLE = "stable"
     OUTSIDE = "outside the model"
@@ -39,25 +39,25 @@ SEVERITY = (Status.DIVERGED, Status.INACCURATE, Status.OUTSIDE, Status.STABLE, S
 class Limits:
     """Limits of a stable run. All but `closed` are fractions."""
 
-    phi: float = 1e-6  # max |Φ| over the mechanism's size
+    phi: float = 1e-6  # max |Φ| divided by the mechanism's size
     closed: float = math.inf  # m, max |Φ| itself
-    energy: float = 1e-3  # energy residual over the energy turned over
-    lost: float = 0.1  # the same: above it the energy is made up, the run has diverged
-    motion: float = 1e-3  # error of a coordinate against a finer run, by size or 1 rad
-    path: float = 1e-2  # error of a journal's centre, by the clearance
-    force: float = 5e-2  # error of a joint's force, by the peak force
-    through: float = 0.1  # δ over the bearing radius: beyond it the journal has flown through the bearing
-    half: float = 0.5  # δ over the clearance: beyond it the contact law does not hold
-    thin: float = 0.01  # δ over the bearing radius: the same
+    energy: float = 1e-3  # energy residual divided by the energy throughput
+    lost: float = 0.1  # the same ratio: above it, the run has diverged
+    motion: float = 1e-3  # error of a coordinate relative to a finer run, divided by the size or 1 rad
+    path: float = 1e-2  # error of a journal's centre, divided by the clearance
+    force: float = 5e-2  # error of a joint's force, divided by the peak force
+    through: float = 0.1  # δ divided by the bearing radius: above it, the journal has passed through the bearing
+    half: float = 0.5  # δ divided by the clearance: above it, the contact law is not valid
+    thin: float = 0.01  # δ divided by the bearing radius: above it, the contact law is not valid
 
 
-# Of methods that project and control their error: what they promise, not what a fixed step can do. Errors are
-# those against a hundred times tighter tolerance over the first contacts.
+# Limits for methods with projection and error control, stricter than those of fixed steps. Errors are relative to a run
+# with a hundred times tighter tolerance over the first contacts.
 STRICT = Limits(closed=1e-10, energy=1e-4, motion=1e-6, path=1e-3, force=1e-2)
 
 
 def select_limits(setting: Setting) -> Limits:
-    """Return the default limits for a setting: those of fixed steps, or the stricter ones of a tolerance."""
+    """Return the default limits for a setting: `Limits()` for a fixed step, STRICT for a tolerance."""
     return Limits() if setting.has_fixed_step else STRICT
 
 
@@ -66,15 +66,15 @@ class Cell:
     """Verdict on one run: a method with its step or tolerance, and the parameters that differ from the file."""
 
     setting: Setting
-    parameters: Parameters  # what to give to `simulate` to see the same
+    parameters: Parameters  # arguments of `simulate` that repeat the run
     status: Status
     reason: str  # a sentence, "" for a stable run
-    label: str  # the same in a few characters, for the map
+    label: str  # the reason in a few characters, for the map
     error: Error  # over [0, compared]
-    energy: float = NAN  # residual over turned over
+    energy: float = NAN  # energy residual divided by the energy throughput
     penetration: float = NAN  # m, the largest δ
-    seconds: float = NAN  # processor time of the long run
-    compared: float = NAN  # s, until when it was compared with a finer run
+    seconds: float = NAN  # s, processor time of the long run
+    compared: float = NAN  # s, end of the time in which the run was compared with a finer run
 
     @property
     def failed(self) -> bool:
@@ -83,25 +83,24 @@ class Cell:
 
 
 def check_memory_of_cells(n_cells: float) -> None:
-    """Raise MemoryError if this number of cells does not fit into the free memory."""
-    check_memory(OF_A_CELL * n_cells, f"{n_cells:.0f} cells")
+    """Raise MemoryError if this number of cells, CELL_BYTES each, does not fit into the free memory."""
+    check_memory(CELL_BYTES * n_cells, f"{n_cells:.0f} cells")
 
 
 def make_missing_cell(parameters: Parameters, setting: Setting) -> Cell:
-    """Return a cell with the status MISSING, for a run that Ctrl-C cut short or left out."""
+    """Return a cell with the status MISSING and no measured values, for a run that Ctrl-C prevented."""
     return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
 def judge_runs(
     parameters: Parameters, long_run: Attempt, run_pairs: Sequence[Pair], limits: Limits | None = None
 ) -> Cell:
-    """Return the verdict on a setting: diverged, inaccurate, outside the model or stable, with the reason for the first
-    fault found.
+    """Return the cell of a setting: diverged, inaccurate, outside the model or stable, with the reason of its worst
+    fault.
 
     long_run: the run over the long window. run_pairs: over short windows, a run with the same setting and a finer one;
-    failed ones do not count for the error. limits: by default those of the setting. A failed long run is "outside the
-    model" if it left the validity of the model and has no fixed step, else "diverged". `limits` None: those of the
-    setting of `long_run`.
+    failed ones do not count for the error. A failed long run is judged alone: it is "outside the model" if it left the
+    validity of the model and has no fixed step, else "diverged". limits: None means those of the setting of `long_run`.
     """
     limits = limits or select_limits(long_run.setting)
     compared_runs = [(a.run, b.run) for a, b in run_pairs if a.run and b.run and not (a.failure or b.failure)]
@@ -110,7 +109,7 @@ def judge_runs(
     cell = partial(Cell, long_run.setting, parameters, seconds=long_run.cpu, compared=compared)
     if long_run.failure or long_run.run is None:
         failure_text = f"at {format_seconds(long_run.failed_at)}" if math.isfinite(long_run.failed_at) else "fails"
-        # a fixed step too long throws a journal through its bearing, whatever the model
+        # with a fixed step that is too long, a journal passes through its bearing for any model
         status = Status.OUTSIDE if long_run.outside and not long_run.setting.has_fixed_step else Status.DIVERGED
         return cell(status, long_run.failure or "no result", failure_text, error)
     diagnostics = long_run.run.diagnostics
@@ -124,44 +123,44 @@ def judge_runs(
 def _find_faults(
     run: Result, energy_residual: float, error: Error, run_pairs: Sequence[Pair], limits: Limits
 ) -> Iterator[tuple[Status, str, str]]:
-    """Yield status, reason and label of each fault of a run, the worst first; a stable run yields nothing.
+    """Yield status, reason and label of each fault of a run in order of precedence; a stable run yields nothing.
 
-    energy_residual: residual over energy throughput. error: largest differences from the finer runs. run_pairs: runs
-    over short windows with the same and a finer setting. Of several errors beyond their limits, only the largest
-    relative to its limit is yielded.
+    energy_residual: divided by the energy throughput. error: largest differences from the finer runs. run_pairs: runs
+    over short windows with the same and a finer setting. Of several errors above their limits, only the one with the
+    largest ratio to its limit is yielded.
     """
     for depth, radius in _compute_penetrations(run):
         if depth > limits.through * radius:
-            yield Status.DIVERGED, f"a journal flew through its bearing: δ = {format_quantity(depth, 'm')}", "through"
+            yield Status.DIVERGED, f"a journal passed through its bearing: δ = {format_quantity(depth, 'm')}", "through"
     if not math.isfinite(energy_residual) or energy_residual > limits.lost:
         yield (
             Status.DIVERGED,
-            f"energy from nowhere: residual {format_fraction(energy_residual)} of the energy turned over",
+            f"energy is not conserved: residual {format_fraction(energy_residual)} of the energy throughput",
             "energy",
         )
     if _has_lost_contact(run):
-        yield Status.DIVERGED, "lost contact: the surfaces overlap while the joint counts as free", "lost"
+        yield Status.DIVERGED, "missed contact: the surfaces overlap while the contact state is open", "lost"
     for coarse, _ in run_pairs:
         if coarse.failure:
             yield Status.DIVERGED, coarse.failure, f"at {format_seconds(coarse.failed_at)}"
     if violation := _describe_model_violation(run, limits):
         if any(_is_violation_caused_by_method(coarse, fine, limits) for coarse, fine in run_pairs):
-            yield Status.INACCURATE, f"too deep for the method's sake: {violation}, not so in the finer run", "δ"
-        yield Status.OUTSIDE, f"the contact law does not hold: {violation}", "δ"
+            yield Status.INACCURATE, f"too deep, but not in the finer run: {violation}", "δ"
+        yield Status.OUTSIDE, f"the contact law is not valid: {violation}", "δ"
     phi = run.diagnostics.phi_max
     if not phi <= min(limits.phi * find_mechanism_size(run), limits.closed):
-        yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} m or rad", "|Φ|"
+        yield Status.INACCURATE, f"the constraints are violated: max |Φ| is {phi:.1e} m or rad", "|Φ|"
     for _, fine in run_pairs:
         if fine.failure:
-            message = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
+            message = f"the finer run ({fine.setting}) failed, so the errors are unknown: {fine.failure}"
             yield Status.INACCURATE, message, "?"
     exceeded = [
         (value / limit, f"{name} {format_fraction(value)} of {reference}", f"{short} {format_fraction(value)}")
         for short, name, value, limit, reference in (
-            ("energy", "energy residual", energy_residual, limits.energy, "the energy turned over"),
-            ("motion", "coordinates off by", error.motion, limits.motion, "the mechanism's size"),
-            ("force", "joint force off by", error.force, limits.force, "its peak"),
-            ("path", "journal's path off by", error.path, limits.path, "the clearance"),
+            ("energy", "energy residual", energy_residual, limits.energy, "the energy throughput"),
+            ("motion", "coordinates differ by", error.motion, limits.motion, "the mechanism's size"),
+            ("force", "joint force differs by", error.force, limits.force, "its peak"),
+            ("path", "journal path differs by", error.path, limits.path, "the clearance"),
         )
         if value > limit
     ]
@@ -170,17 +169,16 @@ def _find_faults(
 
 
 def find_largest_errors(errors: Sequence[Error]) -> Error:
-    """Return the largest motion, path and force error of several; NaN for a measure that is finite in none."""
+    """Return the largest finite motion, path and force error over several pairs of runs; NaN where none is finite."""
     measures = ("motion", "path", "force")
     finite_values = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)
     return Error(*(max(values, default=NAN) for values in finite_values))
 
 
 def _compute_penetrations(run: Result) -> list[tuple[float, float]]:
-    """Return for each joint with play the largest penetration δ (m; negative: never in contact) and the bearing radius
-    (m).
+    """Return for each joint with play the largest penetration δ (m) and the bearing radius R_i (m), over all steps.
 
-    The radius is infinite for a joint without one.
+    δ is negative for a joint that was never in contact. The radius is infinite for a joint without one.
     """
     depths = []
     for joint, peak in zip(run.source.clearances, run.diagnostics.peaks, strict=True):
@@ -190,9 +188,10 @@ def _compute_penetrations(run: Result) -> list[tuple[float, float]]:
 
 
 def _describe_model_violation(run: Result, limits: Limits) -> str:
-    """Return a text on the first joint whose penetration exceeds the validity of the contact law; "" if none does.
+    """Return a text on the first joint whose penetration is too large for its contact law; "" if there is none.
 
-    Limits are the fractions `half` of the clearance and `thin` of the bearing radius.
+    The penetration is too large above the fraction `limits.half` of the clearance or `limits.thin` of the bearing
+    radius.
     """
     for joint, (depth, radius) in zip(run.source.clearances, _compute_penetrations(run), strict=True):
         c = float(run.p[joint.clearance])
@@ -207,10 +206,10 @@ def _describe_model_violation(run: Result, limits: Limits) -> str:
 
 
 def _is_violation_caused_by_method(coarse_run: Attempt, fine_run: Attempt, limits: Limits) -> bool:
-    """Return whether only the coarse run violates the limits of the contact law, so that the method is the cause.
+    """Return whether a too large penetration of a long run is an error of the method: a finer run does not have it.
 
-    It is False if either run has no result or the finer run leaves the model, too. With a fixed step it is True
-    whenever the finer run stays within.
+    It is False if either run has no result, or if the finer run violates the limits of the contact law, too. Without a
+    fixed step, the coarse run over the same short window must violate them.
     """
     if coarse_run.run is None or fine_run.run is None or _describe_model_violation(fine_run.run, limits):
         return False
@@ -218,7 +217,7 @@ def _is_violation_caused_by_method(coarse_run: Attempt, fine_run: Attempt, limit
 
 
 def _has_lost_contact(run: Result) -> bool:
-    """Return whether any sample of a run has a penetration beyond rounding while the joint counts as open."""
+    """Return whether any sample of a run has a penetration δ > 1e-9 c while the contact state of the joint is open."""
     for i, joint in enumerate(run.source.clearances):
         c = float(run.p[joint.clearance])
         if bool(np.any((run[f"{joint.name}.delta"] > c * 1e-9) & (run.state[:, i] == 0))):

@@ -116,7 +116,7 @@ def study(room: Path) -> Act:
     import gudgeon
     from gudgeon.studies.ensemble import resolve
 
-    resolve.BLOCK = 1
+    resolve.MAX_BLOCK_RUNS = 1
     file = {"mechanism": "pendulum", "parameters": {"g": [5, 7, 9]}, "t_end": "0.1 s", "output": 500, "keep": ["bob.x"]}
     gudgeon.study(file)
     return lambda folder, k: report_errors(lambda: gudgeon.study(file, folder / f"{k}.study").save(folder / "study.nc"))

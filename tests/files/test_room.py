@@ -156,7 +156,7 @@ def test_runs_that_do_not_fit_into_memory(pendulum: Simulation) -> None:
         ("1000 runs of 20001", lambda: pendulum.simulate_many(sets, 1.0, output=20_000, method="scipy:DOP853")),
         ("1000 rows of times, 100001 each,", lambda: pendulum.simulate_many(sets, own, output=100_000)),
         (
-            "2 runs of 4000001 samples, under way at once",
+            "2 runs of 4000001 samples, simulated at once",
             lambda: gudgeon.study(STUDY | {"output": 4_000_000, "measures": {"top": {"max": "swing"}}}, threads=2),
         ),
     ):

@@ -193,7 +193,7 @@ def test_what_is_no_choice_is_told(scenes: Scenes) -> None:
         scenes.dry.simulate(parameters={f"{JOURNAL}.E": -1.0})
     with pytest.raises(BadValueError, match="expected a list of names, of steel, bronze, glue"):
         make_axis(scenes.dry, JOURNAL, [0.0, 1.0])
-    with pytest.raises(BadValueError, match="its values are names, there is none between"):
+    with pytest.raises(BadValueError, match="a choice by name has no range"):
         parse_axis(scenes.dry, f"{JOURNAL}=steel..glue")
     with pytest.raises(UnknownNameError, match="bronse"):
         parse_axis(scenes.dry, f"{JOURNAL}=steel,bronse")

@@ -349,20 +349,20 @@ class _NoPool:
 
     def __exit__(self, *_: object) -> None: ...
 
-    def map(self, _: object, jobs: Any) -> list[None]:
+    def map_in_threads(self, _: object, jobs: Any) -> list[None]:
         return [None] * len(jobs)
 
 
 @pytest.mark.parametrize("name", STRESS)
 def test_map(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(maps, "Pool", _NoPool)
+    monkeypatch.setattr(maps, "TaskPool", _NoPool)
     good: dict[str, Any] = {"quick": True}
     refused_or_used(lambda value: maps.compute_verdict_map(pendulum, **(good | {name: value})))
 
 
 @pytest.mark.parametrize("name", BOX)
 def test_stress_box(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(maps, "Pool", _NoPool)
+    monkeypatch.setattr(maps, "TaskPool", _NoPool)
     ranges = [box.Range(pendulum.source.slots[0].address, 1.0, 2.0)]
     good: dict[str, Any] = {"ranges": ranges, "count": 2}
     refused_or_used(lambda value: maps.compute_verdict_box(pendulum, **(good | {name: value})))

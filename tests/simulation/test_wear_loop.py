@@ -144,7 +144,7 @@ def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
         run = simulation.simulate(0.1, output=5, parameters=one, contour={"J": own})
         assert found[k] == run["J.e"][-1]
     assert found[1] > found[0] > C
-    plan, message = resolve_plans(study).each[""], list[float]()
+    plan, message = resolve_plans(study).by_part[""], list[float]()
     run_block(plan.make_block_job(plan.blocks[0], 1), lambda fraction, _: message.append(fraction), simulation)
     assert message == sorted(message) and {1 / 3, 2 / 3, 1.0} <= {*message}  # a round of wear is told as the runs are
     for name, wrong, words in (("joints", "O", "no scene has"), ("k", "1 mm", "wear.k"), ("rounds", 0, "rounds")):

@@ -14,12 +14,12 @@ from gudgeon.studies.ensemble import resolve
 @pytest.fixture
 def blocks_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the tests of a module that asks for it."""
-    monkeypatch.setattr(resolve, "BLOCK", 1)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 1)
 
 
 @pytest.fixture(scope="module")
 def quiet(request: pytest.FixtureRequest) -> Iterator[xr.Dataset]:
     """The dataset of the module's own STUDY."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(resolve, "BLOCK", 1)
+        patch.setattr(resolve, "MAX_BLOCK_RUNS", 1)
         yield gudgeon.study(request.module.STUDY).dataset

@@ -26,16 +26,16 @@ from gudgeon.studies.bench import (
     ADAPTIVE,
     REFERENCES,
     RESOLUTION_FACTOR,
-    SECOND,
+    SECOND_REFERENCE_RTOL,
     Row,
     SceneBench,
     find_independent_reference,
     measure_scene,
     select_references,
 )
-from gudgeon.studies.methods import count_operations, measure_rhs_time
+from gudgeon.studies.methods import count_rhs_operations, measure_rhs_time
 from gudgeon.studies.runs import (
-    ONSETS,
+    N_ONSETS,
     Attempt,
     Error,
     SceneWindow,
@@ -138,7 +138,7 @@ def test_a_run_is_compared_with_another_method() -> None:
     assert find_independent_reference(["dop853"], [first, second]) is second
     assert find_independent_reference(["dop853", "rodas5p"], [first, second]) is second
     assert find_independent_reference(["rk4"], []) is None
-    assert select_references(of("rk4", "dop853"), []) == (REFERENCES[0], Setting("dop853", SECOND))
+    assert select_references(of("rk4", "dop853"), []) == (REFERENCES[0], Setting("dop853", SECOND_REFERENCE_RTOL))
     shorter = select_references(of("rk4"), [Setting("rk4", 1e-3), Setting("rk4", 1e-2)])
     assert all(setting.method == "rk4" and setting.value <= 1e-3 / 4 for setting in shorter)
 
@@ -168,7 +168,7 @@ def test_errors_fall_with_the_tolerance_until_the_references_leave_them_in_doubt
 def test_window_holds_the_first_contacts() -> None:
     work = find_comparison_window(press("dry"), 1.0, Setting("rk4", find_default_step(press("dry"))))
     impacts = press("dry").simulate(work.t_end, output=1, step=2e-6).impacts
-    assert len(impacts) == ONSETS
+    assert len(impacts) == N_ONSETS
     assert find_comparison_window(press("lubricated"), 2e-3, Setting("auto", 1e-6)).t_end == pytest.approx(2e-3)
 
 
@@ -209,11 +209,11 @@ def test_scene_without_freedom_is_measured_by_its_samples() -> None:
 def test_operations_grow_by_the_dry_forces_of_the_joints_in_contact() -> None:
     free, closed = measure_rhs_time(press("dry"), 0.01, batch=10, repeats=1)
     assert (free.state, closed.state) == ("start", "A in contact")
-    assert free.operations == count_operations(press("dry")) == press("dry").source.operations["dynamics"]
+    assert free.operations == count_rhs_operations(press("dry")) == press("dry").source.operations["dynamics"]
     added = [press("dry").source.operations[f"{part}_A_force"] for part in ("normal", "friction")]
     assert closed.operations - free.operations == sum(added)
     assert np.hypot(*(closed.q[3:5] - free.q[3:5])) > 0  # the state is that of the peak
-    assert count_operations(press("lubricated")) > count_operations(press("dry"))
+    assert count_rhs_operations(press("lubricated")) > count_rhs_operations(press("dry"))
 
 
 @needs_compiler

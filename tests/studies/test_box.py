@@ -24,7 +24,7 @@ from gudgeon.studies.box import (
     sample_sobol_points,
 )
 from gudgeon.studies.map import VerdictBox, compute_verdict_box
-from gudgeon.studies.runs import ONSETS, Error, SceneWindow, Setting, compare_runs
+from gudgeon.studies.runs import N_ONSETS, Error, SceneWindow, Setting, compare_runs
 from gudgeon.studies.show.box import (
     MAX_WORST_POINTS,
     describe_verdict_counts,
@@ -83,7 +83,7 @@ def test_tolerance_is_held_to_what_it_promises() -> None:
 def test_comparison_ends_between_two_contacts_after_the_fourth() -> None:
     run = press("dry").simulate(0.05, output=10)
     onsets = np.sort(run.impacts["t_on"])
-    assert onsets[ONSETS - 1] < choose_comparison_times(run)[-1] < onsets[ONSETS]
+    assert onsets[N_ONSETS - 1] < choose_comparison_times(run)[-1] < onsets[N_ONSETS]
     assert choose_comparison_times(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
 
 
@@ -166,15 +166,15 @@ def test_reasons_are_grouped_without_their_numbers() -> None:
         cell(Status.DIVERGED, "no step is small enough at t = 0.31 s"),
         cell(Status.STABLE, error=1e-9),
         cell(Status.DIVERGED, "no step is small enough at t = 2e-05 s"),
-        cell(Status.INACCURATE, "joint force off by 4.9 % of its peak"),
-        cell(Status.INACCURATE, "joint force off by 4e-7 of its peak"),
-        cell(Status.DIVERGED, "a journal flew through its bearing: δ = 3 mm"),
+        cell(Status.INACCURATE, "joint force differs by 4.9 % of its peak"),
+        cell(Status.INACCURATE, "joint force differs by 4e-7 of its peak"),
+        cell(Status.DIVERGED, "a journal passed through its bearing: δ = 3 mm"),
     ]
     found = [(status, reason, len(own)) for status, reason, own in group_cells(cells)]
     assert found == [
         (Status.DIVERGED, "no step is small enough", 2),
-        (Status.DIVERGED, "a journal flew through its bearing", 1),
-        (Status.INACCURATE, "joint force off by … of its peak", 2),
+        (Status.DIVERGED, "a journal passed through its bearing", 1),
+        (Status.INACCURATE, "joint force differs by … of its peak", 2),
         (Status.STABLE, "", 1),
     ]
     assert remove_numbers("more than 120 s of processor time") == "more than … s of processor time"

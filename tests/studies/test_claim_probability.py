@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 
 from gudgeon.studies.ensemble import judge
-from gudgeon.studies.ensemble.judge import Cell, Check, ReadMeasure, judge_claim, merge_verdicts
+from gudgeon.studies.ensemble.judge import Check, ReadMeasure, RunCell, judge_claim, merge_verdicts
 from tests.slow import slow_rows_but
 
-A, B, C, D = (Cell("", (k,)) for k in range(4))
+A, B, C, D = (RunCell("", (k,)) for k in range(4))
 
 
-def larger(first: Cell, second: Cell) -> Check:
+def larger(first: RunCell, second: RunCell) -> Check:
     return Check((first, second), ("m",), lambda x: x(1, "m") > x(0, "m"))
 
 
-def runs(**values: list[float]) -> dict[Cell, dict[str, Any]]:
+def runs(**values: list[float]) -> dict[RunCell, dict[str, Any]]:
     cells = {"a": A, "b": B, "c": C, "d": D}
     return {cells[name]: {"m": np.array(own)} for name, own in values.items()}
 

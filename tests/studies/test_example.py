@@ -5,11 +5,11 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from gudgeon.studies.show.tables import write_csv
+from gudgeon.studies.show.tables import write_rows_as_csv
 
 
 def test_rows_of_a_table_come_back(tmp_path: Path) -> None:
     rows = [{"clearance": "0.1 mm", "verdict": "stable"}, {"clearance": "0.5 mm", "verdict": "diverged"}]
-    write_csv(tmp_path / "map.csv", rows)
+    write_rows_as_csv(tmp_path / "map.csv", rows)
     with (tmp_path / "map.csv").open(newline="") as file:
         assert list(csv.DictReader(file)) == rows

@@ -16,7 +16,7 @@ from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import Axis, make_axis, make_clearance_axis, parse_axis
-from gudgeon.studies.map import VerdictMap, compute_verdict_map, list_default_clearances, list_default_steps
+from gudgeon.studies.map import VerdictMap, compute_verdict_map, list_default_clearances, list_map_steps
 from gudgeon.studies.runs import Attempt, Error, SceneWindow, Setting
 from gudgeon.studies.show.map import describe_marked_step, format_run_command
 from gudgeon.studies.show.tables import format_fraction, format_seconds
@@ -124,7 +124,7 @@ def test_lost_contact_is_seen() -> None:
     assert run.run is not None and run.run.state.any()
     blind = replace(run, run=replace(run.run, state=0 * run.run.state, stored={}))
     cell = judge_runs({}, blind, [(run, run)])
-    assert cell.status is Status.DIVERGED and "lost contact" in cell.reason
+    assert cell.status is Status.DIVERGED and "missed contact" in cell.reason
 
 
 def made(statuses: list[Status]) -> VerdictMap:
@@ -150,7 +150,7 @@ def test_axis_of_clearances_holds_the_files_own(c: float) -> None:
 
 @needs_compiler
 def test_axis_of_steps_starts_at_the_shortest_scene() -> None:
-    steps = list_default_steps([press("lubricated"), press("dry")])
+    steps = list_map_steps([press("lubricated"), press("dry")])
     assert steps[0] == pytest.approx(1e-6) and any(math.isclose(x, 1e-4) for x in steps)
 
 
@@ -228,7 +228,7 @@ def test_axes_that_do_not_fit_are_refused() -> None:
     for text in ("omega", "omega=2..1", "omega=1..2:x"):
         with pytest.raises(BadValueError, match="expected"):
             parse_axis(dry, text)
-    with pytest.raises(BadValueError, match="no such number"):
+    with pytest.raises(BadValueError, match="no such parameter"):
         parse_axis(dry, "viscosity=1,2")
     with pytest.raises(UnknownNameError):
         parse_axis(dry, "omegga=1,2")

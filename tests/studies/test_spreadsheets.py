@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from gudgeon.language.text_output import escape_for_spreadsheet
-from gudgeon.studies.show.tables import write_csv
+from gudgeon.studies.show.tables import write_rows_as_csv
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+cmd", "-x", "@SUM(A1)", "-1 m", "=", "=1\n2"])
 def test_a_text_is_not_a_formula(text: str, tmp_path: Path) -> None:
-    write_csv(tmp_path / "x.csv", [{"failure": text, "step": -1.5}])
+    write_rows_as_csv(tmp_path / "x.csv", [{"failure": text, "step": -1.5}])
     with (tmp_path / "x.csv").open(newline="") as file:
         assert list(csv.DictReader(file)) == [{"failure": f"'{text}", "step": "-1.5"}]
 

@@ -107,7 +107,7 @@ def test_what_a_scene_lacks_is_told_once_and_is_nan(crank: gudgeon.Study) -> Non
 
 def test_what_runs_say_of_themselves_is_told_once_with_how_many(monkeypatch: pytest.MonkeyPatch) -> None:
     """As their own Results say it; of several blocks, and through their files."""
-    monkeypatch.setattr(resolve, "BLOCK", 2)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 2)
     clearances, expected = [1e-6, 1.5e-6, 2e-6, 3e-4], {"t_end": "pi/omega", "output": 20}
     measures = {"measures": {"F": {"peak_force": "wristpin"}}}
     found = gudgeon.study(
@@ -129,7 +129,7 @@ def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> N
 
 
 def test_blocks_and_threads_change_nothing(crank: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(resolve, "BLOCK", 5)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 5)
     monkeypatch.setattr(final, "JOINED_BYTES", 0)  # each written to the file by itself
     message: list[float] = []
     found = gudgeon.study(CRANK, threads=1, progress=lambda fraction, text: message.append(fraction))
@@ -322,7 +322,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
     (tmp_path / "s.yaml").write_text(json.dumps(study | {"format": "gudgeon-study/1"}))  # YAML holds JSON
     study["parameters"]["omega"].append("600 rpm")
     whole = gudgeon.study(study).dataset
-    monkeypatch.setattr(resolve, "BLOCK", 2)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_RUNS", 2)
     xr.testing.assert_identical(gudgeon.study(study).dataset, whole)
     np.testing.assert_array_equal(whole["t"].isnull().all("sample"), whole["failure"] != "")
     done = call("study", "s.yaml")
@@ -331,7 +331,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
     assert document["failed"] == 4 and document["measures"]["x"]["nan"] == 4
     message = dict(zip(found.failures, found.first_failures.values(), strict=True))
     assert sorted(message.values()) == [1, 2] == [int(np.argmax(found.dataset["failure"].values.ravel() != "")), 2]
-    late = "t_end is -0.002 with this run's numbers: expected a positive time (s)"
+    late = "t_end is -0.002 with the parameters of this run: expected a positive time (s)"
     assert f"    the first: c = 0.1 mm, omega = −300 rpm: {late}" in done.output
     assert f"c = 0.1 mm, omega = −300 rpm: {late}" in document["first_failures"].values()
 
@@ -391,7 +391,7 @@ measures: {x: {final: bob.x}}
     empty = text.replace("measures", "windows: {late: {from: 5 ms * (g) / (9.81 m/s^2) * 1.5, to: t_end}}\nmeasures")
     (tmp_path / "late.yaml").write_text(empty)  # of the second run it begins after its end
     done = call("study", "late.yaml")
-    assert "1 of 2 runs failed" in done.output and "window late goes from" in done.output, done.output
+    assert "1 of 2 runs failed" in done.output and "window late is from" in done.output, done.output
     done = call("study", "s.yaml", "--set", "g=3", "--out", "moon")  # over the row
     assert done.exit_code == 0 and "1 run" in done.output.splitlines() and "note: g is set" in done.output, done.output
     assert call("study", "s.yaml", "--set", "lenght=3").exit_code == 2
@@ -438,6 +438,6 @@ def test_a_block_holds_as_many_samples_as_fit(monkeypatch: pytest.MonkeyPatch) -
     """However many runs there are: memory is that of a block."""
     monkeypatch.setattr(resolve, "MAX_BLOCK_BYTES", 100_000)
     draw = {"count": 1000, "parameters": {"g": {"from": 5, "to": 10}}}
-    plan = resolve_plans({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).each[""]
-    assert plan.runs == 1000 and plan.parts[0].block == 100_000 // (8 * 3 * 100)
+    plan = resolve_plans({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).by_part[""]
+    assert plan.runs == 1000 and plan.parts[0].block_runs == 100_000 // (8 * 3 * 100)
     assert sum(block.runs for block in plan.blocks) == 1000

@@ -17,7 +17,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import make_study_schema
 from gudgeon.studies.ensemble import claims
-from gudgeon.studies.ensemble.claim_tables import Claimed
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -119,7 +119,7 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     assert numbers.loc["N3", "deviation"] == pytest.approx(100 * (1.62 / 9.81 - 1), rel=1e-5)
     assert numbers["beside"].tolist() == ["", "", "", "N4", ""]
     off = sorted(abs(numbers.loc["N2", "deviation"]))  # of N2, with two ensembles, the median; N3 is beside another one
-    message = f"2 printed numbers: ours are off by {(50.0 + sum(off) / 2) / 2:.3g} % or less for half of them"
+    message = f"2 printed numbers: half of the computed values deviate by {(50.0 + sum(off) / 2) / 2:.3g} % or less"
     assert found.claims.totals()[-1] == message
     assert found.claims.source == "somebody, somewhere"
     again = gudgeon.load_study(found.folder).claims
@@ -132,18 +132,18 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
 @pytest.mark.parametrize(
     ("medians", "off", "message"),
     [
-        ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: ours are off by 6 % or less for half of them"),
-        ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: ours is off by 5 %"),
+        ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: half of the computed values deviate by 6 % or less"),
+        ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: the computed value deviates by 5 %"),
         ([math.nan, math.nan], [math.nan, math.nan], "2 printed numbers: none could be computed"),
         ([math.nan], [math.nan], "1 printed number: none could be computed"),
-        ([2.0], [math.nan], "1 printed number: of a printed 0 ours is off by no share"),
+        ([2.0], [math.nan], "1 printed number: a printed 0 has no relative deviation"),
     ],
 )
 def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off: list[float], message: str) -> None:
     """NaN, of runs that failed, is in no median of deviations."""
     names = [f"N{k}" for k in range(len(off))]
     numbers = pandas.DataFrame({"claim": names, "printed": 1.0, "median": medians, "deviation": off})
-    assert Claimed(numbers, pandas.DataFrame(), "").totals() == [message]
+    assert JudgedClaims(numbers, pandas.DataFrame(), "").totals() == [message]
 
 
 @needs_compiler
@@ -175,7 +175,7 @@ def test_claims_decide_no_run(found: gudgeon.Study, tmp_path: Path, call: Gudgeo
     totals = ["13 trends: 8 hold, 2 fail, 2 undecided, 1 not computed", "1 trend of “ours”: 1 holds"]
     assert again.claims.totals()[:2] == totals
     assert "\n".join(again.claims.totals()) in call("study", str(path), "--out", str(found.folder)).output
-    with pytest.raises(GudgeonError, match="makes no claims"):
+    with pytest.raises(GudgeonError, match="has no claims"):
         _ = gudgeon.study({"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "keep": ["bob.x"]}).claims
 
 
@@ -186,14 +186,14 @@ BAD = [  # in place of what, what; line and words of the message
     ("length: 100 cm", "lenght: 3 m", "19:54", "unknown coordinate"),
     ("length: 100 cm", "length: 1 kg", "19:62", "a length"),
     ("value: 2 m,", "value: 2 kg,", "19:87", "a length"),
-    ("{length: 100 cm, g: 9.81}", "{length: 100 cm}", "19:5", "say in at: which value of g (2)"),
+    ("{length: 100 cm, g: 9.81}", "{length: 100 cm}", "19:5", "select one value in at: of g (2)"),
     ("measure: x, grows_along: g}", "measure: q, grows_along: g}", "25:53", "unknown measure 'q'"),
     ("grows_along: g}", "grows_along: mass}", "25:69", "unknown coordinate"),
     ("measure: x, grows_along: g}", "measure: x, grows_along: g, at: {g: 9.81}}", "25:69", "one value here"),
     ("grows_along: g}", "falls_along: g}", "25:56", "falls_along"),
     ("grows_along: g}", "grows_along: g, above: 3}", "25:9", "both grows_along and above"),
     ("alike_along: g, within: 1e-3", "alike_along: g", "26:9", "has no within"),
-    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "27:34", "not about the same runs"),
+    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "27:34", "select different runs"),
     ("near: -9.81 m/s^2", "near: -9.81 m", "30:40", "an acceleration"),
     ("{bodies: 1,", "{bodeis: 1,", "32:31", "did you mean 'bodies'"),
     ("not_computed: nobody", "above: 3, not_computed: nobody", "33:31", "expected one of the two"),
@@ -235,7 +235,7 @@ def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monke
     for count, kind, words in (
         (some, "alike_along", f"more than {most} pairs"),
         (some, "grows_along", ""),
-        (10**6, "grows_along", "1000000 values"),
+        (10**6, "grows_along", "1000000 combinations"),
     ):
         trend = {"says": "?", "measure": "x", kind: "g"} | ({"within": 0.1} if kind == "alike_along" else {})
         row = {"from": 1, "to": 2, "count": count}

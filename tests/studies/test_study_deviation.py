@@ -146,7 +146,7 @@ def test_the_other_scene_is_run_once_for_its_own_numbers(monkeypatch: pytest.Mon
 
     monkeypatch.setattr(origins, "_compute_kinematic_series", count)
     monkeypatch.setattr(origins, "_recent", origins.SeriesCache())
-    monkeypatch.setattr("gudgeon.studies.ensemble.resolve.BLOCK", 5)
+    monkeypatch.setattr("gudgeon.studies.ensemble.resolve.MAX_BLOCK_RUNS", 5)
     found = gudgeon.study(CRANK | {"scenes": "dry", "keep": []})
     assert found.runs == 12 and sorted(made) == sorted({*found.dataset["omega"].values})
     monkeypatch.setattr(origins, "MAX_CACHE_BYTES", 0)

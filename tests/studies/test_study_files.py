@@ -37,15 +37,15 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("pendulum", "../pendulum.yaml", "2:12", "study's folder or below"),
     ("pendulum", "/etc/passwd.yaml", "2:12", "study's folder or below"),
     ("[9.81, 20]", "[]", "4:6", "an empty list"),
-    ("[9.81, 20]", "[9.81, 9.81]", "4:13", "twice"),
+    ("[9.81, 20]", "[9.81, 9.81]", "4:13", "is repeated"),
     ("[9.81, 20]", "[9.81, 20 kg]", "4:13", "an acceleration"),
-    ("[9.81, 20]", "[9.81, length]", "4:13", "'length' stands in a number of a study"),
+    ("[9.81, 20]", "[9.81, length]", "4:13", "the name 'length' in a value of a study"),
     ("[9.81, 20]", "[9.81, __import__('os')]", "4:13", "attributes of Python"),
     ("[9.81, 20]", "[9.81, 0/0]", "4:13", "finite"),
     ("[9.81, 20]", "{from: 1, to: 2}", "4:6", "has no count"),
     ("[9.81, 20]", "{from: 1, to: 2, count: 1}", "4:30", "a whole number from 2"),
     ("[9.81, 20]", "{from: 1, to: 2, count: 1e9}", "4:30", "a whole number from 2"),
-    ("[9.81, 20]", "{from: -1e308, to: 1e308, count: 3}", "4:25", "beyond the largest double"),
+    ("[9.81, 20]", "{from: -1e308, to: 1e308, count: 3}", "4:25", "exceed the largest floating-point number"),
     ("[9.81, 20]", f"{ROW}\n  length: {ROW}", "4:3", "10000000000 runs"),
     ("[9.81, 20]", "{from: -1, to: 2, count: 3, spacing: geometric}", "4:13", "both ends positive"),
     ("[9.81, 20]", "{from: 1, to: 2, count: 3, spacing: log}", "4:42", "linear, geometric"),
@@ -85,9 +85,14 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "draw: {count: 3, seed: 1.5, parameters: {length: {from: 1, to: 2}}}", "5:24", "a whole number"),
     ("t_end: 1 s", "starts: {count: 3}", "5:9", "starts has no deviations"),
     ("t_end: 1 s", "starts: {count: 3, relative: {g: 0}}", "5:34", "positive"),
-    ("t_end: 1 s", "starts: {count: 3, relative: {q: 1}}", "5:31", "unknown number 'q'"),
+    ("t_end: 1 s", "starts: {count: 3, relative: {q: 1}}", "5:31", "unknown parameter 'q'"),
     ("t_end: 1 s", "starts: {count: 3, absolute: {length: 1 kg}}", "5:39", "a length"),
-    ("t_end: 1 s", "draw: {count: 3, parameters: {length: {from: -1e308, to: 1e308}}}", "5:58", "largest double"),
+    (
+        "t_end: 1 s",
+        "draw: {count: 3, parameters: {length: {from: -1e308, to: 1e308}}}",
+        "5:58",
+        "largest floating-point number",
+    ),
     ("t_end: 1 s", f"choices: {{{', '.join(f'c{k}: {OPTIONS}' for k in range(5))}}}", "5:11", "59049 scenes"),
     ("t_end: 1 s", "choices: {g: [1, 2]}", "5:11", "choices: g varies a parameter that a number, at "),
     (
@@ -106,7 +111,7 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "output: 0.4", "5:9", "a number of intervals from 1"),
     ("t_end: 1 s", "output: 1e9", "5:9", "a number of intervals from 1"),
     ("t_end: 1 s", "step: -1 ms", "5:7", "a positive time"),
-    ("from: t_end/2", "from: 2*t_end", "7:16", "goes from 2 s to 1 s"),
+    ("from: t_end/2", "from: 2*t_end", "7:16", "is from 2 s to 1 s"),
     ("from: t_end/2", "to: -1 s", "7:14", "expected a part of the run"),
 ]
 
@@ -190,7 +195,7 @@ def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(tmp_path: Path, mo
     """As mechanisms are; a file of that name in the folder counts before it."""
     monkeypatch.chdir(tmp_path)
     plans = resolve_plans("lubricated_10000")
-    assert plans.each[""].runs == 10_000
+    assert plans.by_part[""].runs == 10_000
     with pytest.raises(UnknownNameError, match="did you mean 'chen_2022'"):
         resolve_plans("chen_2023")
     with pytest.raises(UnknownNameError, match="no study 'jansen_leg_play'"):  # a mechanism that one brings along
@@ -198,7 +203,7 @@ def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(tmp_path: Path, mo
     with pytest.raises(InputError, match="cannot read"):
         resolve_plans("chen_2022.yaml")
     Path("lubricated_10000").write_text("format: gudgeon-study/1\nmechanism: pendulum\nmeasures: {x: {final: bob.x}}\n")
-    assert resolve_plans("lubricated_10000").each[""].runs == 1
+    assert resolve_plans("lubricated_10000").by_part[""].runs == 1
 
 
 @needs_compiler
@@ -237,18 +242,21 @@ def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
         "titles": {"g": "gravity"},
     }
     own, less = (
-        resolve_plans(study).each[""],
-        resolve_plans(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""],
+        resolve_plans(study).by_part[""],
+        resolve_plans(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).by_part[""],
     )
     assert own.dims == ("g", "draw") and less.dims == ("draw",) and less.fixed == {"parameters.g": 3.0, "length": 5.0}
-    assert set(less.numbers[0].columns) == {"bodies.bob.mass"}
-    assert (less.numbers[0].columns["bodies.bob.mass"] == own.numbers[1].columns["bodies.bob.mass"]).all()
+    assert set(less.parameter_dimensions[0].columns) == {"bodies.bob.mass"}
+    assert (
+        less.parameter_dimensions[0].columns["bodies.bob.mass"]
+        == own.parameter_dimensions[1].columns["bodies.bob.mass"]
+    ).all()
     assert less.notes == (
-        "g is set for all runs, over the 3 values that the file has for it",
-        "length is set for all runs, over the 4 values that the file has for it",
+        "g is set for all runs, in place of 3 values in the study file",
+        "length is set for all runs, in place of 4 values in the study file",
     )
-    assert resolve_plans(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
+    assert resolve_plans(study, {"length": 5, "bodies.bob.mass": 3}).by_part[""].dims == ("g",)
     both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}
     both["zip"] = {"pair": {"g": [1, 2], "length": [3, 4]}}
-    assert resolve_plans(both, {"g": 3}).each[""].dims == ("pair",)
-    assert resolve_plans(both, {"g": 3, "length": 1}).each[""].dims == ()
+    assert resolve_plans(both, {"g": 3}).by_part[""].dims == ("pair",)
+    assert resolve_plans(both, {"g": 3, "length": 1}).by_part[""].dims == ()

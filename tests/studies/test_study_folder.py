@@ -125,7 +125,9 @@ def test_another_study_is_refused_with_what_differs(tmp_path: Path) -> None:
     other = STUDY | {"t_end": "30 ms", "measures": {"y": {"max": "bob.y"}}}
     with pytest.raises(InputError) as message:
         gudgeon.study(other, tmp_path)
-    assert "t_end was '20 ms', is '30 ms'" in str(message.value) and "measures.y.max was not said" in str(message.value)
+    assert "t_end was '20 ms', is '30 ms'" in str(message.value) and "measures.y.max was not specified" in str(
+        message.value
+    )
     assert "--restart" in str(message.value) and (tmp_path / "study.nc").exists()
     found = gudgeon.study(other, tmp_path, restart=True).dataset
     assert float(found["t_last"].max()) == 0.03 and "v" not in found
@@ -182,7 +184,7 @@ def test_foreign_folders_stay_as_they_are(tmp_path: Path) -> None:
             gudgeon.study(STUDY, tmp_path, restart=restart)
     with pytest.raises(OutputError):
         gudgeon.study(STUDY, tmp_path / "thesis.tex")
-    with pytest.raises(InputError, match="no folder of a study"):
+    with pytest.raises(InputError, match="not a study folder"):
         gudgeon.load_study(tmp_path)
     assert (tmp_path / "thesis.tex").read_text() == half.read_text() == "mine"
 

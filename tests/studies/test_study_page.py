@@ -1,4 +1,4 @@
-"""Run the study and the Python of docs/studies.md, read its fragments and check that its tables are complete."""
+"""Run the study and the Python of docs/studies.md, read its fragments and those of claims.md, check their tables."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_studies, read_study
 from gudgeon.generator.study.schema import make_study_schema
 from gudgeon.generator.study.spec import COUNTED_PARTS, KINDS, SAMPLING_METHODS, STATISTICS
-from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
-from gudgeon.studies.ensemble.resolve import BLOCK
+from gudgeon.studies.ensemble.names import collect_display_names, typeset_quantity
+from gudgeon.studies.ensemble.resolve import MAX_BLOCK_RUNS
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 
 jsonschema = pytest.importorskip("jsonschema")
-PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = "".join((DOCS / name).read_text(encoding="utf-8") for name in ("studies.md", "claims.md"))
 
 
 def blocks(language: str) -> list[str]:
@@ -50,7 +51,7 @@ def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 def test_every_key_statistic_and_method_is_on_the_page() -> None:
     words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
     assert {*KEYS, *STATISTICS, *SAMPLING_METHODS, *KINDS, *COUNTED_PARTS} <= words
-    assert f"{BLOCK} at most" in PAGE
+    assert f"{MAX_BLOCK_RUNS} at most" in PAGE
 
 
 def test_the_schema_takes_its_file_and_refuses_others() -> None:
@@ -168,8 +169,8 @@ def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tupl
     """What is between is that of the runs; without a unit that both have in SI."""
     study = {"mechanism": "slider_crank", "parameters": {"omega": row}, "measures": {"x": {"max": "slider.x"}}}
     plans = resolve_plans(study)
-    assert collect_names(plans).values[""].get("omega", ()) == shown
-    for text, omega in zip(shown, plans.each[""].numbers[0].columns["omega"], strict=False):
+    assert collect_display_names(plans).values[""].get("omega", ()) == shown
+    for text, omega in zip(shown, plans.by_part[""].parameter_dimensions[0].columns["omega"], strict=False):
         message = text.replace("2.4·10²", "240").replace("π", "*pi")
         number, _, unit = message.partition(" ")
         value = float(number.removesuffix("*pi") or 1) * (math.pi if "pi" in message else 1.0)

@@ -77,14 +77,14 @@ def test_it_goes_on_from_the_parts_that_are_there(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         gudgeon.study(tmp_path / "s.yaml", tmp_path / "s", progress=stop)
     before = (tmp_path / "s" / "planets" / "study.nc").stat().st_mtime_ns
-    with pytest.raises(InputError, match="lengths is not finished|no folder of a study"):
+    with pytest.raises(InputError, match="lengths is not finished|not a study folder"):
         (tmp_path / "s" / "lengths" / "study.nc").unlink(missing_ok=True)
         gudgeon.load_study(tmp_path / "s")
     found = gudgeon.study(tmp_path / "s.yaml", tmp_path / "s")
     assert (tmp_path / "s" / "planets" / "study.nc").stat().st_mtime_ns == before and found.runs == 5
     changed = TEXT.replace("3 m]", "4 m]")
     (tmp_path / "s.yaml").write_text(changed)
-    with pytest.raises(InputError, match=r"lengths holds another study:\n  parameters.length\[2\] was '3 m'"):
+    with pytest.raises(InputError, match=r"lengths contains another study:\n  parameters.length\[2\] was '3 m'"):
         gudgeon.study(tmp_path / "s.yaml", tmp_path / "s")
     found = gudgeon.study(tmp_path / "s.yaml", tmp_path / "s", restart=True)
     assert found.parts["lengths"].dataset["length"].values.tolist() == [1.0, 2.0, 4.0]
@@ -95,7 +95,7 @@ def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
     gudgeon.study(ALONE, tmp_path / "alone")
     with pytest.raises(InputError, match="a study without parts"):
         gudgeon.study(tmp_path / "s.yaml", tmp_path / "alone")
-    with pytest.raises(InputError, match="no folder of a study: it holds alone"):
+    with pytest.raises(InputError, match="is not a study folder: it contains alone"):
         gudgeon.study(tmp_path / "s.yaml", tmp_path)
     gudgeon.study(tmp_path / "s.yaml", tmp_path / "s")
     with pytest.raises(InputError, match="another study"):
@@ -143,7 +143,10 @@ def test_the_command(tmp_path: Path, call: Gudgeon) -> None:
     document = json.loads(call("study", "s.yaml", "--json").output)
     assert document["runs"] == 5 and set(document["parts"]["lengths"]["measures"]) == {"x"}
     done = call("study", "s.yaml", "--set", "length=3 m", "--out", "t.study")  # one part varies it
-    assert done.exit_code == 0 and "note: length is set for all runs, over the 3 values that the file" in done.output
+    assert (
+        done.exit_code == 0
+        and "note: length is set for all runs, in place of 3 values in the study file" in done.output
+    )
     parts = gudgeon.load_study(tmp_path / "t.study").parts
     assert parts["planets"].runs == 2 and parts["lengths"].dataset["x"].dims == ()
     assert all(one.dataset["length"].values == 3.0 for one in parts.values())

@@ -135,9 +135,9 @@ def test_bands_over_shares_are_of_the_same_share_of_each_run(tmp_path: Path) -> 
     found: Any = resample_over_fractions(turn.dataset["t"].values, turn.dataset["load.x"])
     runs = found[1].values
     assert np.ptp(runs[:, 0], axis=0).max() < 2 * atol and np.isnan(runs[:, 1]).all()
-    with pytest.raises(BadValueError, match="no run has a length"):
+    with pytest.raises(BadValueError, match="no run has a duration"):
         turn.plot.bands("load.x", share=True, at={"bodies.load.mass": -1})
-    assert "over shares" in turn.report().to_html()
+    assert "over fractions of the run" in turn.report().to_html()
 
 
 def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
@@ -150,8 +150,8 @@ def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
 
 
 def test_a_map_has_words_where_there_is_room(study: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(study_plots, "ROWS", 2)
-    monkeypatch.setattr(study_plots, "COLUMNS", 4)
+    monkeypatch.setattr(study_plots, "MAX_Y_TICKS", 2)
+    monkeypatch.setattr(study_plots, "MAX_X_TICKS", 4)
     ax = plots(study).heat_map("far", "x0", "k", at={"way": 1})
     assert [tick.get_text() for tick in ax.get_yticklabels()] == ["100", "900"]
     assert list(ax.get_xticks()) == [0, 3, 6] and len(ax.images[0].get_array()[0]) == 9
@@ -216,7 +216,7 @@ def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
             call(plots(study))
     with pytest.raises(BadValueError, match="does not vary"):
         plots(study).measure("fast", "scene")
-    with pytest.raises(UnknownNameError, match="kept no series 'load.y'"):
+    with pytest.raises(UnknownNameError, match="stored no series 'load.y'"):
         study.to_dataframe("load.y")
 
 

@@ -21,7 +21,7 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
-from gudgeon.studies.ensemble.claim_tables import Claimed  # noqa: E402
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims  # noqa: E402
 from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import build_claims_sections  # noqa: E402
 from gudgeon.studies.show.pictures import PageFigures  # noqa: E402
@@ -88,7 +88,7 @@ def test_a_page_has_the_studys_numbers(folder: Path, page: str) -> None:
 def test_it_is_whole_by_itself_and_what_it_quotes_is_text(page: str) -> None:
     pictures = check(page)
     assert len(pictures) >= 4 and "&lt;script&gt;alert(1)&lt;/script&gt;" in page
-    for name in ("What varied", "Failed runs", "Measures", "Figures", "Series"):
+    for name in ("Varied quantities", "Failed runs", "Measures", "Figures", "Series"):
         assert f"<h2>{name}</h2>" in page
     assert "prefers-color-scheme: dark" in page and "@media print" in page and "width=device-width" in page
 
@@ -151,17 +151,20 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
         for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))
     ]
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
-    claims = Claimed(*tables, "a paper & more")
+    claims = JudgedClaims(*tables, "a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
     parts = {name: StudyData(study) for name in whole.parts}
     (heading, inside), (trends, judgement), (ours, alone) = build_claims_sections(whole, parts, PageFigures())
-    assert (heading, trends, ours) == ("Published numbers", "Published trends", "Ours alone")
+    assert (heading, trends, ours) == ("Published numbers", "Published trends", "Computed only")
     assert "&lt;i&gt;peak" in inside
     cells = "2.5 mm", "2 mm (1.9 … 2.1)", "3 mm (2 … 4)", "−20.0 … +20.0 %"
     assert "".join(f"<td>{cell.replace(' mm', chr(160) + 'mm')}</td>" for cell in cells) in inside
     assert "<td>c 0.3 mm</td><td>one</td><td>2\u00a0mm, +4.2 %</td>" in alone  # in no ensemble, beside another
     assert inside.count("<figure>") == 1 and "Fig 3: peak" in inside and "not drawn" not in inside
-    assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
+    assert (
+        "ensembles disagree: near holds, far fails" in judgement
+        and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
+    )
     assert "a paper &amp; more" in inside and "a &amp; b" in inside
     page = StudyReport(whole).to_html()
     check(page)
@@ -217,7 +220,7 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
         "chance": 1.0,
         "agreed": True,
     }
-    claims = Claimed(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
+    claims = JudgedClaims(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
     whole: Any = SimpleNamespace(claims=claims, parts={"": study})
     pictures = PageFigures()
     (heading, inside), (own, below) = build_claims_sections(whole, {"": StudyData(study)}, pictures)
@@ -229,7 +232,7 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
     ax: Any = draw()
     assert [word.get_text() for word in ax.get_xticklabels()] == ["N1\none place", "D1\none place"]
     labels = [word.get_text() for word in ax.get_legend().get_texts()]
-    assert sorted(labels) == ["near", "ours, one run", "printed", "wide"]
+    assert sorted(labels) == ["computed, one run", "near", "printed", "wide"]
 
 
 def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -244,14 +247,16 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
         return ax
 
     shown = PageFigures()
-    places = "".join(shown.add_placeholder(f"p-{k}", partial(drawn, k)) for k in range(pictures.MANY))
+    places = "".join(
+        shown.add_placeholder(f"p-{k}", partial(drawn, k)) for k in range(pictures.MIN_FIGURES_FOR_PROCESSES)
+    )
     monkeypatch.setattr(pictures, "count_available_threads", lambda: 1)
     here = shown.insert_figures(places)
     monkeypatch.setattr(pictures, "count_available_threads", lambda: 2)
     assert shown.insert_figures(places) == here
     monkeypatch.setattr(pictures, "_send_drawn_figures", lambda connection, figures: os._exit(1))  # a process that dies
     assert shown.insert_figures(places) == here
-    assert here.count("<svg") == pictures.MANY - 1 and "not drawn: nothing to draw" in here
+    assert here.count("<svg") == pictures.MIN_FIGURES_FOR_PROCESSES - 1 and "not drawn: nothing to draw" in here
 
 
 def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -264,7 +269,7 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
     assert message.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
     for wrong, why in (
         (["report"], "the folder is missing"),
-        (["report", "none.study"], "no folder of a study"),
+        (["report", "none.study"], "not a study folder"),
         (["mass.yaml", "x"], "takes one file"),
         (["mass.yaml", "--out", "x.html"], "a study is a folder"),
         (["report", str(folder), "--out", "page.txt"], "ends in .html"),

@@ -83,7 +83,7 @@ def test_a_pool_of_the_users_that_breaks(tmp_path: Path, quiet: xr.Dataset) -> N
     """It is told, and the same call goes on with another one."""
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
         progress = killing(lambda: list(pool._processes))
-        with pytest.raises(GudgeonError, match=r"(?s)BrokenProcessPool.*the same call goes on"):
+        with pytest.raises(GudgeonError, match=r"(?s)BrokenProcessPool.*the same call resumes"):
             gudgeon.study(STUDY, tmp_path, executor=pool, progress=progress)
     assert 0 < len(list(tmp_path.glob("block-*.nc"))) < 12
     xr.testing.assert_identical(gudgeon.study(STUDY, tmp_path).dataset, quiet)
@@ -102,7 +102,7 @@ def test_workers_that_die_at_every_block_end_the_study(tmp_path: Path) -> None:
         def submit(self, work: Any, /, *args: Any, **kwargs: Any) -> Any:
             return self.pool.submit(os._exit, 3)
 
-    with Mortal(1) as pool, pytest.raises(GudgeonError, match="0 of 12 blocks are there"):
+    with Mortal(1) as pool, pytest.raises(GudgeonError, match="0 of 12 blocks are finished"):
         gudgeon.study(STUDY, tmp_path, executor=pool)
     assert pool.renewed == 2
 
@@ -115,11 +115,11 @@ def test_the_command(call: Gudgeon, tmp_path: Path) -> None:
     found, own = (gudgeon.load_study(tmp_path / name).dataset for name in ("w", "s.study"))
     xr.testing.assert_identical(found, own)
     message = call("study", "s.yaml", "--workers", "1", "--dask", "tcp://127.0.0.1:1")
-    assert message.exit_code == 2 and "one of them" in message.output
+    assert message.exit_code == 2 and "one of the two options" in message.output
 
 
 def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gudgeon.studies.ensemble.workers.PATIENCE", 1)
+    monkeypatch.setattr("gudgeon.studies.ensemble.workers.CLUSTER_TIMEOUT_S", 1)
     (tmp_path / "s.yaml").write_text("format: gudgeon-study/1\nmechanism: pendulum\nkeep: bob.x\n")
     for address in ("tcp://127.0.0.1:1", "nonsense://x", ""):
         message = call("study", "s.yaml", "--dask", address)
@@ -130,5 +130,5 @@ def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypat
     with ThreadPoolExecutor(1) as over:
         pass
     for executor in (over, Executor()):
-        with pytest.raises(GudgeonError, match="the executor takes no work"):
+        with pytest.raises(GudgeonError, match="the executor accepts no work"):
             gudgeon.study(STUDY, executor=executor)

@@ -1,7 +1,7 @@
 /*
  * Andrews' squeezing mechanism (seven-body mechanism)
  * mechanism andrews_squeezer, scene ideal, from the YAML with sha256
- * c401d3e0296ea92ea25feec92cf461ce23463941d1d2d9411dd61deec9e35cd8
+ * 1c3db5e51a3ab9f4757a755acb104f9d9388381b52f465279942f3630ecf5c24
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * Block on a belt, stick-slip with a spring
  * mechanism belt_block, scene ideal, from the YAML with sha256
- * 9be5b10eaafc4105ed817b464692cda97310da92dbc4cba5ae5a8d01d4b30af0
+ * ec906888c129b8bcbe2f3d2e1e802c61bcb577e466e5a53f34b81e00f0d9db54
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * Bouncing ball, Hertz contact with hysteresis damping
  * mechanism bouncing_ball, scene elastic, from the YAML with sha256
- * d59abd4d40e94d675ef5ed7a7d8ab966ee77d724aa6a7ad36058811fdec5cf94
+ * 54aee18c268d8295e1d23cc5e44a71e8f579f0995457613e251d820fd3110d5a
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * car axis on a bumpy road (IVP test set)
  * mechanism car_axis, scene ideal, from the YAML with sha256
- * d7cfa90c7eb5ab38943e8a9b0ba7e0155050a3e53e660ac717cf7a3a00b97163
+ * d514a831ebebc4033738b0f4b026b3c5e03070e9416768c033d5b5af26acf694
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * four-bar linkage, a crank-rocker
  * mechanism four_bar, scene ideal, from the YAML with sha256
- * 890fe941776a3a447d1bb36d2608867a0f47f9f4874406a96206722550bb1476
+ * b12d3de1bc7dd85432a1c63d8fb244c85309101a992a6a1060cd5bf3197df8f8
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * N-four-bar, N = 2 (IFToMM A02)
  * mechanism n_four_bar, scene ideal, from the YAML with sha256
- * 2e166e68baa2b7453fce771b0b88596414df7c6296e2f6be631a60c3fac80faf
+ * bb7f895f7916c5d685102528ff720e01752885680b9e942a96c78442e9eaf383
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

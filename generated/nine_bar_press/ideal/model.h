@@ -1,7 +1,7 @@
 /*
  * 2-DOF nine-bar press with play in joints A and B
  * mechanism nine_bar_press, scene ideal, from the YAML with sha256
- * febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
+ * 7728bd5042c3c8cedecd3281c75feb638c729a0a8b05887c6f05c5482d45768f
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

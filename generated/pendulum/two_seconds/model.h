@@ -1,7 +1,7 @@
 /*
  * simple pendulum (IFToMM A01)
  * mechanism pendulum, scene two_seconds, from the YAML with sha256
- * d09c146d2f0ceb546a548752eb1ee149e813b0f702dbe45fcda93bffb2b3e75d
+ * 5b2c757e68c805bb5809ff0dd33e4dcddd8dea1ccdade67d63ba0d77319cc582
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * Slider-crank shaker with an inverted pendulum
  * mechanism shaker, scene ideal, from the YAML with sha256
- * 9aa282fee4943aab54e1260e56060a8241a5b0bc5e5d2c5320974f108ddb59c1
+ * c187ff154d73e123ab73d1f0883b789a8ded67ac2962345065a5e50c25b1c8f5
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * slider-crank mechanism with play in the slider's pin
  * mechanism slider_crank, scene dry, from the YAML with sha256
- * 7d0ee75732fc8db361d73dbcc9252363a5631ed216b7197196ca1cd59efe75c0
+ * 52f6801b39dd5254c93c6a7ff0cd2fd997c0c61da653b6931830147ebd09225b
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,7 +1,7 @@
 /*
  * slider-crank with a spring-damper between crank and rod (SUNDIALS idasSlCrank)
  * mechanism slider_crank_spring, scene ideal, from the YAML with sha256
- * f8b1a96eaced41f835f2270ca00d7613193cbb57cd3661dedea441f8aed58650
+ * 824fbb6abb2baac3ae2b97219e2174ac8ffebb1d1da22cecfd0e3af16bdfe533
  *
  * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */

@@ -1,4 +1,4 @@
-"""Run one block of a study, a group of runs that one process computes, and return a picklable result."""
+"""Run one block of a study, a batch of runs that one process computes, and return a picklable result."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from gudgeon.studies.ensemble.measures import (
     Spans,
     evaluate_measure,
     find_sampled_interval,
-    is_within,
+    is_in_window,
     list_peak_series,
     list_sampled_series,
     list_sliding_requests,
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunSettings:
-    """Requested outputs and settings of every run of a study."""
+    """Settings of all runs of a study; an expression None means the value of the scene."""
 
     t_end: Expr | None
     output: Expr | None
@@ -66,28 +66,26 @@ class RunSettings:
     rtol: float | None
     stop: bool
     wear: WearModel | None = None
-    rounds: int = 0  # of wear before the runs that are measured
+    wear_rounds: int = 0  # rounds of wear before the measured runs
 
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Runs of one scene with their parameters, (n,) each; `relative` and `absolute` are deviations of perturbed
-    starts.
-    """
+    """Picklable description of runs of one scene: library, parameters and deviations of perturbed starts, (n,) each."""
 
     mechanism: str
     scene: str
     overrides: tuple[tuple[str, str], ...]
     sha256: str
-    number: int  # of the block
-    first: int  # run of the study
-    n: int  # how many
+    block_number: int
+    first_run: int  # index in the study
+    n_runs: int
     columns: Mapping[str, Array]
     relative: Mapping[str, Array]
     absolute: Mapping[str, Array]
     run_settings: RunSettings
     threads: int | None
-    later: int = 0  # runs of the same scene in later blocks
+    n_later_runs: int = 0  # runs of the same scene in later blocks
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,13 +93,13 @@ class Block:
     """Results of n runs; `t` is (N,) if all runs that began have the same times, else (n, N)."""
 
     number: int
-    first: int
+    first_run: int  # index in the study
     measures: Mapping[str, Array]  # (n,)
-    failures: tuple[str, ...]  # why a run failed, "" where it did not
-    t_last: Array  # (n,) s, NaN: it did not begin
-    t: Array  # empty where nothing is kept
-    series: Mapping[str, Array]  # (n, N)
-    notes: Mapping[str, Note] = field(default_factory=dict)  # by their kind
+    failures: tuple[str, ...]  # reason of the failure of each run, "" for none
+    t_last: Array  # (n,) s, end of each run; NaN: it did not begin
+    t: Array  # sample times; empty if no series is stored
+    series: Mapping[str, Array]  # stored series, (n, N)
+    notes: Mapping[str, Note] = field(default_factory=dict)  # by kind
 
     @property
     def nbytes(self) -> int:
@@ -110,26 +108,28 @@ class Block:
 
 
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
-    """Run all runs of a job, measure them, and return the results as a Block.
+    """Simulate all runs of a job as a batch, evaluate their measures, and return the results as a Block.
 
-    simulation: the loaded scene; None loads its library, as worker processes do. Runs with invalid parameters get their
-    reason and no results. If the whole batch is refused, the runs are simulated one by one to find the invalid one.
-    Raises KeyboardInterrupt if Ctrl-C ended a run.
+    simulation: the loaded scene; None loads its library, as worker processes do. Runs with invalid parameters get a
+    reason and no results. If simulate_many rejects the batch, the runs are simulated one by one to find the invalid
+    one. Raises KeyboardInterrupt if Ctrl-C ended a run.
     """
     simulation = simulation or load_library(job.mechanism, job.scene, job.overrides, job.sha256)
     table = RunTable(simulation, job)
-    failures = [table.invalid_runs.get(i, "") for i in range(job.n)]
-    valid_runs = np.array([i for i in range(job.n) if i not in table.invalid_runs], dtype=int)
+    failures = [table.invalid_runs.get(i, "") for i in range(job.n_runs)]
+    valid_runs = np.array([i for i in range(job.n_runs) if i not in table.invalid_runs], dtype=int)
     collector = _Collector(job, table)
-    with collect_guess_notes(simulation.source, job.first) as guess_notes, announce_later_runs(job.later):
+    with collect_guess_notes(simulation.source, job.first_run) as guess_notes, announce_later_runs(job.n_later_runs):
         try:
             if len(valid_runs):
-                collector.add_batch(valid_runs, _run_batch(simulation, job, table, valid_runs, progress), failures)
-        except InputError:  # usually of one run; run by run it is found
+                collector.add_batch(
+                    valid_runs, _simulate_block_runs(simulation, job, table, valid_runs, progress), failures
+                )
+        except InputError:  # usually caused by one run: simulate the runs one by one
             for i in valid_runs:
                 try:
                     collector.add_batch(
-                        np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures
+                        np.array([i]), _simulate_block_runs(simulation, job, table, np.array([i]), None), failures
                     )
                 except InputError as error:
                     failures[i] = str(error)
@@ -141,9 +141,7 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
 
 
 class RunTable:
-    """Parameters of all runs of a job, with their ends, outputs, steps and windows, and reasons why some cannot
-    begin.
-    """
+    """Evaluated parameters, end times, outputs, steps and windows of all runs of a job, and reasons of invalid runs."""
 
     def __init__(self, simulation: Simulation, job: Job) -> None:
         """Evaluate parameters, end time, output, step and windows of all runs of a job.
@@ -155,10 +153,10 @@ class RunTable:
         self.columns = {
             key: values for name, values in job.columns.items() if (key := find_parameter_key(self.source, name))
         }
-        self.p, errors = self._prepare_parameter_vectors(job.n)
+        self.p, errors = self._prepare_parameter_vectors(job.n_runs)
         if perturbed_columns := self._compute_perturbed_parameters(job):
             self.columns |= perturbed_columns
-            self.p, errors = self._prepare_parameter_vectors(job.n)
+            self.p, errors = self._prepare_parameter_vectors(job.n_runs)
         self.invalid_runs |= {i: str(error) for i, error in errors.items() if i not in self.invalid_runs}
         self.t_end = self._evaluate_end_times(settings.t_end)
         values_by_name = {"t_end": self.t_end}
@@ -172,7 +170,7 @@ class RunTable:
     def _compute_perturbed_parameters(self, job: Job) -> dict[str, Array]:
         """Return the values of the perturbed parameters by key, p (1 + relative) + absolute, (n,) each.
 
-        Parameters that the scene lacks are left out; the result is empty for a job without deviations.
+        Parameters that the scene lacks are left out. Empty for a job without deviations.
         """
         index_of_address, parameters = (
             {parameter.address: k for k, parameter in enumerate(self.source.slots)},
@@ -184,14 +182,16 @@ class RunTable:
             base, key, zero = (
                 self.p[:, index_of_address[parameter.address]],
                 find_parameter_key(self.source, name),
-                np.zeros(job.n),
+                np.zeros(job.n_runs),
             )
             deviation = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
-            parameters[key] = parameters.get(key, base) + deviation  # another ensemble may spell it otherwise
+            # two ensembles may name the same parameter differently, as "c" and "parameters.c"
+            parameters[key] = parameters.get(key, base) + deviation
         return parameters
 
     def _prepare_parameter_vectors(self, n_runs: int) -> tuple[Array, Mapping[int, GudgeonError]]:
-        """Return the parameter vectors p of all runs, (n_runs, n_p), and the errors of invalid ones by run.
+        """Return the parameter vectors p of all runs, (n_runs, n_p), and the errors of runs with invalid values, by
+        run.
 
         A value that is not finite is replaced by the default, and its run is entered in `invalid_runs`.
         """
@@ -209,9 +209,9 @@ class RunTable:
     def _evaluate_windows(
         self, windows: Mapping[str, tuple[Expr | None, ...]], known_values: Mapping[str, Array]
     ) -> Spans:
-        """Return begin and end of each window by name, (n,) s each; None for an end that the study leaves open.
+        """Return begin and end of each window by name, (n,) s each; None for an end that the study does not specify.
 
-        known_values: names besides parameters in the expressions, such as t_end. A run that does not contain its window
+        known_values: values of further names in the expressions, such as t_end. A run that does not overlap its window
         is entered in `invalid_runs`.
         """
         spans: dict[str, tuple[Array | None, ...]] = {}
@@ -224,25 +224,26 @@ class RunTable:
             begin, end = (limit if x is None else x for x, limit in limits)
             is_valid = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
             for i in np.flatnonzero(~is_valid).tolist():
-                message = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
+                message = f"window {name} is from {begin[i]:g} s to {end[i]:g} s with the parameters of this run"
                 self.invalid_runs.setdefault(i, f"{message}: expected a part of the run, to {self.t_end[i]:g} s")
             spans[name] = tuple(ends_of_runs)
         return spans
 
     def _mark_impossible_runs(self, name: str, values: Array) -> None:
-        """Enter the runs with an impossible value of `name` (t_end, output or step) in `invalid_runs`, with value and
-        expectation.
+        """Enter the runs with an impossible value of the setting `name` in `invalid_runs`, with value and expected
+        range.
 
-        Runs that are entered already keep their first reason.
+        name: "t_end", "output" or "step". A run that is entered already keeps its first reason.
         """
         is_impossible, expected = find_impossible_values(name, values)
         for i in np.flatnonzero(is_impossible).tolist():
-            self.invalid_runs.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
+            message = f"{name} is {values[i]:g} with the parameters of this run: expected {expected}"
+            self.invalid_runs.setdefault(i, message)
 
     def _evaluate_end_times(self, expr: Expr | None) -> Array:
         """Return the end time of each run, (n,) s, from the study's expression, or from the scene if `expr` is None.
 
-        Runs with an impossible end are entered in `invalid_runs`.
+        Runs with an impossible end time are entered in `invalid_runs`.
         """
         if expr is not None:
             end_times = evaluate_expression_for_runs(self.source, expr, self.p, {})
@@ -253,8 +254,8 @@ class RunTable:
     def _evaluate_output_counts(self, expr: Expr | None, known_values: Mapping[str, Array]) -> Array:
         """Return the number of output intervals of each run, (n,), as floats with integer values.
 
-        expr: expression of the study, rounded; None takes the scene's number. known_values: names besides parameters.
-        Runs with an impossible number are entered in `invalid_runs`.
+        expr: expression of the study, whose values are rounded; None means the number of the scene. known_values:
+        values of further names in it. Runs with an impossible number are entered in `invalid_runs`.
         """
         if expr is None:
             return self._evaluate_for_each_run(
@@ -265,9 +266,9 @@ class RunTable:
         return counts
 
     def _evaluate_for_each_run(self, compute_value: Any) -> Array:
-        """Return `compute_value(p)` for the parameter vector of each run, (n,); NaN for runs in `invalid_runs`.
+        """Return `compute_value(p)` for the parameter vector p of each run, (n,); NaN for runs in `invalid_runs`.
 
-        A BadValueError of a run enters it in `invalid_runs`.
+        A run for which it raises BadValueError is entered in `invalid_runs`.
         """
         values = np.full(len(self.p), np.nan)
         for i in range(len(self.p)):
@@ -284,11 +285,13 @@ def _to_python_value(value: Any) -> float | str:
     return value if isinstance(value, str) else float(value)
 
 
-def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, progress: Progress | None) -> Batch:
+def _simulate_block_runs(
+    simulation: Simulation, job: Job, table: RunTable, runs: Array, progress: Progress | None
+) -> Batch:
     """Simulate some runs of a job as one batch, after its rounds of wear, and return the batch.
 
-    runs: indices within the job. If no measure needs whole runs, only samples within the windows are stored. Raises
-    KeyboardInterrupt if Ctrl-C ended a run, InputError for invalid parameters.
+    runs: indices within the job. If the study stores no series and no measure needs samples of whole runs, only samples
+    within the windows are stored. Raises KeyboardInterrupt if Ctrl-C ended a run, InputError for invalid parameters.
     """
     settings, ends, counts = job.run_settings, table.t_end[runs], table.output[runs].astype(int)
     spans = None if settings.keep else find_sampled_interval(settings.measures, table.spans, runs)
@@ -317,7 +320,9 @@ def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, p
         "stop": settings.stop,
     }
     parameters = parameters or [{}] * len(runs)
-    contour, progress = run_wear_rounds(simulation, settings.wear, settings.rounds, parameters, ends, options, progress)
+    contour, progress = run_wear_rounds(
+        simulation, settings.wear, settings.wear_rounds, parameters, ends, options, progress
+    )
     batch = simulation.simulate_many(
         parameters,
         t_end,
@@ -335,26 +340,26 @@ def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, p
 
 
 def _select_stored_times(t: Array, begin: float, end: float) -> Array:
-    """Return the sample times t (s) that are stored: those within [begin, end], and the start and end of the run."""
-    return t[(t == 0.0) | (t == t[-1]) | is_within(t, begin, end)]
+    """Return the sample times of t (s) that are stored: those in [begin, end], and the first and last of the run."""
+    return t[(t == 0.0) | (t == t[-1]) | is_in_window(t, begin, end)]
 
 
 class _Collector:
-    """Collector of measures and series of the runs of a job; runs without results have NaN."""
+    """Accumulator of the measures, series and notes of the runs of a job; runs without results have NaN."""
 
     def __init__(self, job: Job, table: RunTable) -> None:
-        """Create NaN measures and end times for all runs of a job."""
-        self.job, self.table, n = job, table, job.n
+        """Allocate measures and end times of all runs of a job, filled with NaN."""
+        self.job, self.table, n = job, table, job.n_runs
         self.measures = {measure.name: np.full(n, np.nan) for measure in job.run_settings.measures}
         self.t_last = np.full(n, np.nan)
         self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
         self.notes: list[Mapping[str, Note]] = []
 
     def add_batch(self, runs: Array, batch: Batch, failures: list[str]) -> None:
-        """Add the measures, end times, notes and series of a batch.
+        """Evaluate the measures of a batch, and add them with its end times, notes and stored series.
 
-        runs: indices of the batch's runs within the job. Reasons of failed runs are entered in `failures`; their
-        measures stay NaN, their end times are added.
+        Scenes that measures subtract are run here. runs: indices of the batch's runs within the job. Reasons of failed
+        runs are entered in `failures`; their measures stay NaN.
         """
         spans: Spans = {
             name: tuple(None if end is None else end[runs] for end in ends) for name, ends in self.table.spans.items()
@@ -371,9 +376,11 @@ class _Collector:
         has_begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)
         notes_by_run = batch.result.notes()
-        self.notes.append(group_notes((self.job.first + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run)))
+        self.notes.append(
+            group_notes((self.job.first_run + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run))
+        )
         if self.job.run_settings.keep:
-            self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
+            self.kept.append((runs, batch.t, batch.kept))  # without the batch, whose states would stay in memory
 
     def add_measures(self, values: Mapping[str, Array], failures: list[str]) -> None:
         """Add further measures of all runs, (n,) by name, and set all measures of failed runs to NaN."""
@@ -381,14 +388,14 @@ class _Collector:
             self.measures[name] = np.where([not message for message in failures], measure_values, np.nan)
 
     def build_block(self, failures: list[str]) -> Block:
-        """Return the collected results as a Block, with one axis of times if all runs that began share it.
+        """Return the collected results as a Block; sample times are (N,) if all runs that began share them.
 
-        Series of shorter runs are padded with NaN.
+        Series of shorter runs are padded with NaN to the largest number of samples N.
         """
         job, keep = self.job, self.job.run_settings.keep
         N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
-        t = np.full((job.n, N), np.nan)
-        series = {name: np.full((job.n, N), np.nan) for name in keep}
+        t = np.full((job.n_runs, N), np.nan)
+        series = {name: np.full((job.n_runs, N), np.nan) for name in keep}
         for runs, requested, kept in self.kept:
             used = kept["t"]
             t[runs, : used.shape[1]] = np.where(np.isnan(used), requested, used)
@@ -400,22 +407,22 @@ class _Collector:
         if np.array_equal(t[began], np.broadcast_to(common, t[began].shape)):
             t = common
         notes = merge_notes(self.notes)
-        return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)
+        return Block(job.block_number, job.first_run, self.measures, tuple(failures), self.t_last, t, series, notes)
 
 
 def resolve_wear_model(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel:
-    """Return the wear model of a study, with the wear rate from k and hardness in SI.
+    """Return the wear model of a study, with the wear rate from the wear coefficient and the hardness in SI.
 
-    sources: all scenes of the study. Raises UnknownNameError for a joint without a contour in any scene, InputError for
+    sources: all scenes of the study. Raises UnknownNameError for a joint that has a contour in no scene, InputError for
     invalid values, each at its location.
     """
     joints_with_contour = {contour.joint for source in sources for contour in source.contours}
     for joint in wear.joints:
         if joint not in joints_with_contour:
             hint = (
-                f"joints with one: {', '.join(sorted(joints_with_contour))}"
+                f"joints with a contour: {', '.join(sorted(joints_with_contour))}"
                 if joints_with_contour
-                else "contour: 128 in the play of a scene"
+                else "expected contour: 128 in the play of a scene"
             )
             raise UnknownNameError(f"wear.joints: no scene has a contour at {joint}", joint.where, hint)
     try:
@@ -428,7 +435,7 @@ def resolve_wear_model(wear: WearRounds, sources: Sequence[KernelSource]) -> Wea
         else parse_real_value(wear.scale, RuntimeParameter("wear.scale", "", 1.0, False, (0, 0, 0)))
     )
     if wear.scale is not None and not scale > 0.0:
-        raise BadValueError(f"wear.scale is {scale:g}", wear.scale.where, "expected a positive number of runs")
+        raise BadValueError(f"wear.scale is {scale:g}", wear.scale.where, "expected a positive factor")
     return WearModel(tuple(map(str, wear.joints)), rate, wear.law, scale)
 
 
@@ -441,11 +448,11 @@ def run_wear_rounds(
     options: dict[str, Any],
     progress: Progress | None,
 ) -> tuple[dict[str, Array], Progress | None]:
-    """Run the rounds of wear; return the worn contours by joint, and the progress function for the measured runs.
+    """Simulate the rounds of wear, and return the worn contours by joint and the progress function for the next runs.
 
-    wear: None, or no joint of the scene with a contour, returns no contours and `progress` itself. parameters,
-    end_times (s): of each run. options: further arguments of `simulate_many`. Each round takes an equal part of the
-    progress.
+    Without wear, or in a scene whose worn joints have no contour, it runs nothing and returns {} and `progress`.
+    parameters, end_times (s): of each run. options: further arguments of `simulate_many`. Each round, and the measured
+    runs, have equal parts of the progress.
     """
     joints_with_contour = {contour.joint for contour in simulation.source.contours}
     if wear is None or not joints_with_contour.intersection(wear.joints):

@@ -1,4 +1,4 @@
-"""Compare the claims of a study file, published numbers and trends, with its runs; write two tables."""
+"""Compare the claims of a study file, published numbers and trends, with its runs, and write the results as tables."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from gudgeon.files.writing import open_atomic, read_regular_file
 from gudgeon.language.plot_units import format_quantity
 from gudgeon.language.text_output import escape_for_spreadsheet, format_count
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, judge_claim, merge_verdicts
-from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
+from gudgeon.studies.ensemble.judge import RunCell, judge_claim, merge_verdicts
+from gudgeon.studies.ensemble.names import collect_display_names, typeset_quantity
 
 if TYPE_CHECKING:
     import pandas
@@ -26,22 +26,28 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
     from gudgeon.studies.ensemble.plan import Plan, Plans
 
-FILE, TABLES = "claims.json", ("numbers", "trends")
+CLAIMS_FILE, TABLE_NAMES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
-ODDS = ("probability", "low", "high", "chance")
-VERDICTS = {"holds": "hold", "fails": "fail", "undecided": "undecided", NOT_COMPUTED: NOT_COMPUTED}  # of several: so
-UNNAMED = ""  # the ensemble of runs that are in none
+PROBABILITY_COLUMNS = ("probability", "low", "high", "chance")
+# verdict of one trend -> text for several trends
+VERDICT_PLURALS = {
+    "holds": "hold",
+    "fails": "fail",
+    "undecided": "undecided",
+    NOT_COMPUTED: NOT_COMPUTED,
+}
+NO_ENSEMBLE = ""  # name of the ensemble of runs without named ensembles
 
 
-class Claimed(NamedTuple):
+class JudgedClaims(NamedTuple):
     """Two tables of judged claims, with a row for each claim and ensemble.
 
-    numbers: claim, figure, says, part, at, place (of its scene along each dimension, JSON), measure, unit, printed,
-    ensemble, n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number in
-    `beside`), beside, note, heading (under which a page shows it). trends: claim, figure, says, heading, ensemble,
-    verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (verdict of this
-    ensemble), probability (the least of its checks) and its interval low to high, chance (that one run of each scene
-    shows all checks), agreed (whether no ensemble rules out the verdict of another), note.
+    numbers: claim, figure, says, part, at, place (index along each dimension, JSON), measure, unit, printed, ensemble,
+    n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number in `beside`),
+    beside, note, heading (of its section in the report). trends: claim, figure, says, heading, ensemble, verdict (of
+    all ensembles together: "holds", "fails", "undecided", "not computed"), alone (verdict of this ensemble),
+    probability (minimum over its checks) and its interval low to high, chance (that one run of each cell satisfies all
+    checks), agreed (whether no ensemble rules out the verdict of another), note.
     """
 
     numbers: pandas.DataFrame
@@ -49,19 +55,20 @@ class Claimed(NamedTuple):
     source: str
 
     def totals(self) -> list[str]:
-        """Return lines of text: the numbers of trends by verdict for each heading, then the deviation from printed
-        numbers.
+        """Return summary lines: "13 trends: 8 hold, 2 fail" for each heading, then the deviation from printed numbers.
 
-        A claim counts once, whatever the number of its ensembles. Without printed numbers the last line is left out.
+        A claim with several ensembles counts once. Without printed numbers the last line is left out.
         """
         text_lines = []
         trends_by_claim = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
         headings = (
-            list(trends_by_claim["heading"]) if "heading" in trends_by_claim else [UNNAMED] * len(trends_by_claim)
+            list(trends_by_claim["heading"]) if "heading" in trends_by_claim else [NO_ENSEMBLE] * len(trends_by_claim)
         )
         for heading in dict.fromkeys(headings):
             counts = Counter(trends_by_claim["verdict"][[verdict == heading for verdict in headings]])
-            nonzero_counts = ((counts[verdict], verdict, many) for verdict, many in VERDICTS.items() if counts[verdict])
+            nonzero_counts = (
+                (counts[verdict], verdict, many) for verdict, many in VERDICT_PLURALS.items() if counts[verdict]
+            )
             words = (f"{count} {many if count > 1 else verdict}" for count, verdict, many in nonzero_counts)
             heading_text = f" of “{heading}”" if heading else ""
             text_lines.append(f"{format_count(counts.total(), 'trend')}{heading_text}: {', '.join(words)}")
@@ -72,10 +79,10 @@ class Claimed(NamedTuple):
 
 
 def _describe_deviations(printed_rows: pandas.DataFrame) -> str:
-    """Return a sentence on how far the computed medians deviate from the printed numbers.
+    """Return a sentence with the median of the relative deviations of computed medians from the printed numbers.
 
-    printed_rows: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation; a claim
-    with several ensembles counts by the median of theirs.
+    printed_rows: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation. The
+    deviation of a claim is the median over its ensembles.
     """
     each = printed_rows.groupby("claim")
     off = printed_rows["deviation"].abs().groupby(printed_rows["claim"]).median().dropna()
@@ -85,112 +92,113 @@ def _describe_deviations(printed_rows: pandas.DataFrame) -> str:
         return f"{numbers}: none could be computed"
     count_text = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
     if not len(off):
-        return f"{count_text}: of a printed 0 ours is off by no share"
+        return f"{count_text}: a printed 0 has no relative deviation"
     median_text = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
     sentence = (
-        f"ours are off by {median_text} or less for half of them" if len(off) > 1 else f"ours is off by {median_text}"
+        f"half of the computed values deviate by {median_text} or less"
+        if len(off) > 1
+        else f"the computed value deviates by {median_text}"
     )
     return f"{count_text}: {sentence}"
 
 
 def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Study) -> None:
-    """Judge all claims by the finished runs, and write them as claims.json and as two CSV files into the study's
-    folder.
+    """Judge all claims by the finished runs, and write claims.json and two CSV files into the folder of the study.
 
-    A study without claims has such files of an earlier version removed. Raises OutputError.
+    Without claims nothing is written, and files of an earlier edition of the claims are removed. Raises OutputError.
     """
     if not (claims.numbers or claims.trends):
-        for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
+        for name in (CLAIMS_FILE, *(f"claims_{table}.csv" for table in TABLE_NAMES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs = _FinishedRuns(plans, study, collect_names(plans).values)
+    runs = _FinishedRuns(plans, study, collect_display_names(plans).values)
     cells = {str(judged.claim.name): judged.cell for judged in claims.numbers}
     rows = {
         "numbers": [row for judged in claims.numbers for row in _judge_number(judged, runs, cells)],
         "trends": [row for judged in claims.trends for row in _judge_trend(judged, runs)],
     }
-    with open_atomic(folder / FILE) as file:
+    with open_atomic(folder / CLAIMS_FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
-    for name, table in zip(TABLES, _build_tables(rows), strict=True):
+    for name, table in zip(TABLE_NAMES, _build_tables(rows), strict=True):
         with open_atomic(folder / f"claims_{name}.csv") as file:
             file.write(table.map(escape_for_spreadsheet).to_csv(index=False).encode())
 
 
-def read_claims(folder: Path) -> Claimed:
-    """Return the judged claims from the folder of a study. Raises GudgeonError if the study makes no claims."""
+def read_judged_claims(folder: Path) -> JudgedClaims:
+    """Read the judged claims from the folder of a study. Raises GudgeonError if the study has no claims."""
     document = read_claims_json(folder)
     if document is None:
-        raise GudgeonError("the file of this study makes no claims")
+        raise GudgeonError("the study file has no claims")
     numbers, trends = _build_tables(document)
-    return Claimed(numbers, trends, str(document.get("source", "")))
+    return JudgedClaims(numbers, trends, str(document.get("source", "")))
 
 
 def read_claims_json(folder: Path) -> dict[str, Any] | None:
     """Return the contents of claims.json in a folder; None if the file is missing, damaged, or without both tables."""
     try:
-        data = read_regular_file(folder / FILE)
+        data = read_regular_file(folder / CLAIMS_FILE)
         document = None if data is None else json.loads(data)
     except (OSError, ValueError, RecursionError):
         return None
     return (
         document
-        if isinstance(document, dict) and all(isinstance(document.get(name), list) for name in TABLES)
+        if isinstance(document, dict) and all(isinstance(document.get(name), list) for name in TABLE_NAMES)
         else None
     )
 
 
 def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
-    """Return the tables of numbers and of trends from their rows, with null as NaN in columns of floats.
+    """Return the tables of numbers and of trends from their rows, {"numbers": [...], "trends": [...]}.
 
-    rows: {"numbers": [...], "trends": [...]}.
+    None (null in JSON) becomes NaN in columns of numbers.
     """
     import pandas
 
-    tables = [pandas.DataFrame(rows[name]) for name in TABLES]
+    tables = [pandas.DataFrame(rows[name]) for name in TABLE_NAMES]
     for name in ("printed", "q25", "median", "q75", "deviation"):
         if name in tables[0]:
             tables[0][name] = tables[0][name].astype(float)  # null is NaN
-    for name in ODDS:
+    for name in PROBABILITY_COLUMNS:
         if name in tables[1]:
             tables[1][name] = tables[1][name].astype(float)
     return tables
 
 
 class _FinishedRuns:
-    """Measures of a study's runs by cell and ensemble."""
+    """Reader of the measures of a finished study, by cell and ensemble; arrays are cached."""
 
     def __init__(self, plans: Plans, study: Study, value_texts: Mapping[str, Mapping[str, tuple[str, ...]]]) -> None:
-        """Store plans, finished study, and the texts of coordinate values as the file writes them, {part: {name:
-        texts}}.
-        """
+        """Store plans and finished study; value_texts: typeset values of coordinates, {part: {name: texts}}."""
         self.plans, self.study, self.written = plans, study, value_texts
         self.cached_values: dict[tuple[str, str], Array] = {}
 
-    def list_ensembles(self, cells: list[Cell]) -> list[str]:
-        """Return the names of the ensembles of the parts of these cells, each once; [""] if there are none."""
+    def list_ensembles(self, cells: list[RunCell]) -> list[str]:
+        """Return the names of the ensembles in the parts of these cells, without repetitions; [""] for none."""
         names = [
             name for part in dict.fromkeys(cell.part for cell in cells) for name in self._list_ensemble_names(part)
         ]
-        return list(dict.fromkeys(names)) or [UNNAMED]
+        return list(dict.fromkeys(names)) or [NO_ENSEMBLE]
 
-    def has_separate_runs(self, cell: Cell, ensembles: list[str]) -> bool:
-        """Return whether a cell has runs of its own in each of these ensembles, or there is only one ensemble."""
+    def has_separate_runs(self, cell: RunCell, ensembles: list[str]) -> bool:
+        """Return whether each of these ensembles has its own runs of a cell; True for fewer than two ensembles.
+
+        It is False for a cell of a part without these ensembles, whose runs all ensembles share.
+        """
         return len(ensembles) < 2 or set(ensembles) <= set(self._list_ensemble_names(cell.part))
 
     def _list_ensemble_names(self, part: str) -> list[str]:
         """Return the names of the ensembles along the dimension `ensemble` of a part; empty if it has none."""
-        plan = self.plans.each[part]
+        plan = self.plans.by_part[part]
         return [
             str(name) for coordinate in plan.coordinates if coordinate.name == "ensemble" for name in coordinate.values
         ]
 
-    def read_values(self, cell: Cell, measure: str, ensemble: str) -> Array:
-        """Return a measure of the runs of a cell in an ensemble, (n,).
+    def read_values(self, cell: RunCell, measure: str, ensemble: str) -> Array:
+        """Return a measure of the runs of a cell in an ensemble, (n,), with NaN of failed runs.
 
-        If the cell does not have this ensemble, all its runs are returned. The array of the part is read once and
-        cached.
+        If the part of the cell does not have this ensemble, all runs of the cell are returned.
         """
-        plan, key = self.plans.each[cell.part], (cell.part, measure)
+        plan, key = self.plans.by_part[cell.part], (cell.part, measure)
         if key not in self.cached_values:
             part_study = self.study.parts[cell.part] if self.plans.named else self.study
             self.cached_values[key] = np.asarray(part_study.dataset[measure].transpose(*plan.dims).values, dtype=float)
@@ -202,12 +210,12 @@ class _FinishedRuns:
 
 
 def _judge_number(
-    number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, Cell]
+    number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, RunCell]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the table row of a published number for each ensemble: quartiles of its runs, and the deviation in %.
+    """Yield the table row of a number for each ensemble: quartiles of its runs, and the deviation of the median in %.
 
-    cells: cells of all numbers by the name of their claim. The deviation is from the printed value, or from the median
-    of the number in `beside`; null without runs or for a base of 0.
+    cells: cells of all numbers by the name of their claim. The deviation is relative to the printed value, or to the
+    median of the number in `beside`. It is None without finite values, or relative to 0.
     """
     claim = number.claim
     for ensemble in finished_runs.list_ensembles([number.cell]):
@@ -219,7 +227,7 @@ def _judge_number(
             others = finished_runs.read_values(cells[claim.reference_claim], str(claim.measure), ensemble)
             base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
         deviation = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
-        plan = finished_runs.plans.each[number.cell.part]
+        plan = finished_runs.plans.by_part[number.cell.part]
         yield {
             "claim": str(claim.name),
             "figure": claim.figure,
@@ -243,9 +251,9 @@ def _judge_number(
 
 
 def _describe_cell(plan: Plan, number: ResolvedNumber, value_texts: Mapping[str, tuple[str, ...]]) -> str:
-    """Return the coordinates of a number's cell in words: "scene dry, c 0.3 mm".
+    """Return the coordinates of a number's cell in words: "scene dry, c 0.3 mm", for the table column `at`.
 
-    Texts of the claim take precedence over those of the file (`value_texts`), and these over formatted values.
+    A value is written as in the claim, else as in the study file (`value_texts`), else formatted with six digits.
     """
     texts, words = (
         [],
@@ -262,31 +270,31 @@ def _describe_cell(plan: Plan, number: ResolvedNumber, value_texts: Mapping[str,
 
 
 def _list_cell_dimensions(plan: Plan) -> list[str]:
-    """Return the dimensions of a plan that distinguish cells: all but ensemble and start."""
+    """Return the names of the dimensions of a plan that distinguish cells: all but "ensemble" and "start"."""
     return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
 def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
-    """Yield the table row of a trend for each ensemble: the verdict of all ensembles, its own, and probabilities.
+    """Judge a trend, and yield its table row for each ensemble: common verdict, verdict of the ensemble, probabilities.
 
-    A trend that the study does not compute has one row with the verdict "not computed".
+    A trend with `not_computed` has one row with the verdict "not computed" and probabilities None.
     """
     claim = trend.claim
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
     if claim.not_computed:
         message = " ".join(filter(None, (claim.not_computed, claim.note)))
         yield common | {
-            "ensemble": UNNAMED,
+            "ensemble": NO_ENSEMBLE,
             "verdict": NOT_COMPUTED,
             "alone": NOT_COMPUTED,
-            **dict.fromkeys(ODDS),
+            **dict.fromkeys(PROBABILITY_COLUMNS),
             "agreed": True,
             "note": message,
         }
         return
     cells = list(dict.fromkeys(cell for check in trend.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in trend.checks for name in check.measures))
-    certain_cells = [cell for cell in cells if "start" not in finished_runs.plans.each[cell.part].dims]
+    certain_cells = [cell for cell in cells if "start" not in finished_runs.plans.by_part[cell.part].dims]
     judged_by_ensemble, ensembles = {}, finished_runs.list_ensembles(cells)
     shared_cells = [cell for cell in cells if not finished_runs.has_separate_runs(cell, ensembles)]
     for ensemble in ensembles:
@@ -301,7 +309,7 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
         judged_by_ensemble[ensemble] = judge_claim(trend.checks, verdicts, certain_cells, shared_cells)
     overall, agreed = merge_verdicts(list(judged_by_ensemble.values()))
     for ensemble, judged in judged_by_ensemble.items():
-        probabilities = {name: _replace_nonfinite(getattr(judged, name)) for name in ODDS}
+        probabilities = {name: _replace_nonfinite(getattr(judged, name)) for name in PROBABILITY_COLUMNS}
         yield common | {
             "ensemble": ensemble,
             "verdict": overall.verdict,
@@ -312,11 +320,11 @@ def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator
         }
 
 
-def _has_measure(finished_runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
-    """Return whether the part that a cell belongs to has a measure of this name."""
-    return any(expected.name == measure for expected in finished_runs.plans.each[cell.part].run_settings.measures)
+def _has_measure(finished_runs: _FinishedRuns, cell: RunCell, measure: str) -> bool:
+    """Return whether the part of a cell has a measure of this name."""
+    return any(candidate.name == measure for candidate in finished_runs.plans.by_part[cell.part].run_settings.measures)
 
 
 def _replace_nonfinite(value: float | None) -> float | None:
-    """Return a finite number as a float; None for None, NaN and infinity, which JSON lacks."""
+    """Return a finite number as a Python float; None for None, NaN and infinity, which JSON lacks."""
     return None if value is None or not math.isfinite(value) else float(value)

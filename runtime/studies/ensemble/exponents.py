@@ -1,7 +1,7 @@
 """Compute Lyapunov exponents, predictability horizons and kinds of motion for the runs of a study.
 
-A measure is of `run`, the whole motion, or of a section: an event of the file, or a period by each run's own
-parameters. Measures of one section and window share one computation.
+The object of a measure is `run`, the whole motion, or a Poincaré section: an event of the file, or a period that is an
+expression of each run's parameters. Measures of one section and window share one computation.
 """
 
 from __future__ import annotations
@@ -33,45 +33,49 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.studies.ensemble.block import Job, RunTable
 
-WHOLE = "run"  # in the place of a section
-OF_SECTION = ("lyapunov_per_return", "motion", "motion_confidence")
+WHOLE_RUN = "run"  # object of a measure of the whole motion, without a section
+SECTION_STATISTICS = ("lyapunov_per_return", "motion", "motion_confidence")
 NEIGHBOUR_STATISTICS: Mapping[str, str] = {
     "lyapunov": "1/s",
     "lyapunov_error": "1/s",
     "believable": "s",
-} | dict.fromkeys(OF_SECTION, "")  # with their units
-KINDS: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # a periodic motion is its period
-KINDS_TOLD = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
+} | dict.fromkeys(SECTION_STATISTICS, "")  # statistic -> SI unit
+MOTION_CODES: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # periodic: number of returns
+MOTION_CODES_TEXT = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
 
 
 def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
-    """Check the measures of neighbouring trajectories (Lyapunov exponent, predictability, kind of motion) of a study.
+    """Check a study's measures of neighbouring trajectories: Lyapunov exponents, predictability horizon, kind of
+    motion.
 
-    Raises BadValueError at the measure for a study with wear, a predictability with fixed steps, or a statistic of
-    returns without a section; an InputError for a section that is neither an event nor a period.
+    Called for each scene with degrees of freedom. Raises BadValueError at the measure for a study with wear, a
+    predictability horizon with fixed steps, or a statistic of returns without a section; an InputError for a section
+    that is neither an event nor a period.
     """
     for measure in (measure for measure in study.measures if measure.statistic in NEIGHBOUR_STATISTICS):
         where, owner = measure.of.where, f"measures.{measure.name}"
         if study.wear is not None:
-            message = f"{owner}: a neighbour is followed beside circles, not beside contours that wear"
-            raise BadValueError(message, where, "leave out wear:, or this measure")
+            message = f"{owner}: neighbouring trajectories are not computed for contours with wear"
+            raise BadValueError(message, where, "remove wear:, or this measure")
         if measure.statistic == "believable" and (study.step is not None or study.method == "rk4"):
-            message = f"{owner}: what a fixed step errs by is not known"
-            raise BadValueError(message, where, "expected a method that chooses its step, by rtol")
-        if measure.of == WHOLE and measure.statistic in OF_SECTION:
-            message = f"{owner}: {measure.statistic.replace('_', ' ')} is of returns to a section"
+            message = (
+                f"{owner}: the predictability horizon needs the relative error of a step, unknown for a fixed step"
+            )
+            raise BadValueError(message, where, "expected a method with step-size control, and rtol")
+        if measure.of == WHOLE_RUN and measure.statistic in SECTION_STATISTICS:
+            message = f"{owner}: {measure.statistic.replace('_', ' ')} needs a section"
             raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
-        if measure.of != WHOLE and not _is_event_section(measure, source):
+        if measure.of != WHOLE_RUN and not _is_event_section(measure, source):
             _check_period_expression(measure, source)
 
 
 def _is_event_section(measure: Measure, source: KernelSource) -> bool:
-    """Return whether the section of a measure is the name of an event of the scene."""
+    """Return whether the section of a measure is the name of a user-defined event of the scene."""
     return measure.of in [event.name for event in source.events]
 
 
 def _check_period_expression(measure: Measure, source: KernelSource) -> None:
-    """Raise an InputError unless the section of a measure is an expression with the dimension of time."""
+    """Raise an InputError unless the section of a measure is an expression of parameters with the dimension of time."""
     from gudgeon.generator.study.spec import ParsedExpression
 
     written = ParsedExpression(parse(measure.of, measure.of.where), measure.of)
@@ -79,24 +83,24 @@ def _check_period_expression(measure: Measure, source: KernelSource) -> None:
         check_expression(source, written, TIME, {"t_end": TIME})
     except InputError as error:
         events = ", ".join(event.name for event in source.events) or "none"
-        hint = f"expected {WHOLE}, an event of scene {source.scene} ({events}), or a period: 2*pi/omega"
+        hint = f"expected {WHOLE_RUN}, an event of scene {source.scene} ({events}), or a period: 2*pi/omega"
         raise type(error)(error.message, error.where, hint) from None
 
 
 def compute_neighbour_measures(
     simulation: Simulation, job: Job, table: RunTable, t_last: Array, failures: list[str], progress: Progress | None
 ) -> dict[str, Array]:
-    """Compute the measures of neighbouring trajectories of all runs that have not failed, (n,) by name.
+    """Integrate all runs again with a neighbouring trajectory, and return their measures, (n,) by name.
 
-    t_last (n,) s: end of each run, at an event or as requested. The reason of a failure is entered in `failures`. Runs
-    are spread over threads. All values are NaN in a scene without degrees of freedom; the result is empty without such
-    measures. `progress` is called meanwhile.
+    t_last (n,) s: end of each run, at an event or as requested. Failed runs are left out (NaN); the reason of a new
+    failure is entered in `failures`. Runs are distributed over threads. All values are NaN in a scene with dof = 0; the
+    result is empty without such measures. `progress` is called meanwhile, so that it can cancel.
     """
     measures = [measure for measure in job.run_settings.measures if measure.statistic in NEIGHBOUR_STATISTICS]
-    values = {measure.name: np.full(job.n, np.nan) for measure in measures}
+    values = {measure.name: np.full(job.n_runs, np.nan) for measure in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return values
-    runs = [i for i in range(job.n) if not failures[i]]
+    runs = [i for i in range(job.n_runs) if not failures[i]]
     computation = _NeighbourComputation(simulation, job, table, t_last, progress)
     with ThreadPoolExecutor(job.threads or count_available_threads(), thread_name_prefix="gudgeon") as pool:
         for i, values_or_reason in zip(runs, pool.map(lambda i: computation(i, measures), runs), strict=True):
@@ -109,12 +113,15 @@ def compute_neighbour_measures(
 
 
 class _NeighbourComputation:
-    """Computation of the neighbouring trajectories of one run, section by section."""
+    """Computation of the neighbouring trajectories of the runs of a job; a call computes those of one run."""
 
     def __init__(
         self, simulation: Simulation, job: Job, table: RunTable, t_last: Array, progress: Progress | None
     ) -> None:
-        """Store the job, its parameters, and the end of each run, t_last or the requested end."""
+        """Store the job and its parameters, the tolerances, and the end of each run.
+
+        The end is t_last if an event ended the run early, else the requested end.
+        """
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
         self.error = RTOL if job.run_settings.rtol is None else job.run_settings.rtol
         self.rtol = limit_rtol_of_neighbours(simulation.source, job.run_settings.rtol)
@@ -122,29 +129,30 @@ class _NeighbourComputation:
         self.t_last = np.where(is_cut, t_last, table.t_end)
 
     def __call__(self, i: int, measures: Sequence[Measure]) -> dict[str, float] | str:
-        """Return the measures of run i by name, or the reason (a text) why they cannot be computed.
+        """Return the measures of run i by name, or the reason (a text) of the first error.
 
-        Measures of the same section and window share one computation.
+        Measures of the same section and window share one computation. Notes on guesses are dropped, since the run
+        itself reports them.
         """
-        followed: dict[tuple[str, str], Lyapunov | None] = {}
+        computed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
-        with collect_guess_notes(
-            self.simulation.source, self.job.first
-        ):  # notes of the run itself are reported already
+        with collect_guess_notes(self.simulation.source, self.job.first_run):
             try:
                 for measure in measures:
                     key = (str(measure.of), measure.window)
-                    if key not in followed:
-                        followed[key] = self._compute_lyapunov(i, measure)
-                    values[measure.name] = _read_statistic(measure.statistic, followed[key], self.error)
+                    if key not in computed:
+                        computed[key] = self._compute_lyapunov(i, measure)
+                    values[measure.name] = _read_statistic(measure.statistic, computed[key], self.error)
             except GudgeonError as error:
                 return f"{measure.name}: {error}"
         return values
 
     def _compute_lyapunov(self, i: int, measure: Measure) -> Lyapunov | None:
-        """Return the Lyapunov exponent of run i for the section and window of a measure.
+        """Integrate run i with a neighbouring trajectory over the window of a measure, and return its `Lyapunov`
+        result.
 
-        None if an event ended the run before the window or before one period of the section. Raises GudgeonError.
+        The result has the states at the section of the measure. None if an event ended the run before the window, or
+        within one period of the section after its begin. Raises GudgeonError if the integration fails.
         """
         table, settings, source = self.table, self.job.run_settings, self.simulation.source
         begin, end = (
@@ -170,10 +178,8 @@ class _NeighbourComputation:
         )
 
     def _resolve_section(self, i: int, measure: Measure) -> str | float | None:
-        """Return the section of a measure for run i: None for the whole motion, the name of an event, or a period
-        (s).
-        """
-        if measure.of == WHOLE:
+        """Return the section of a measure for run i: None for the whole motion, an event's name, or a period (s)."""
+        if measure.of == WHOLE_RUN:
             return None
         if _is_event_section(measure, self.simulation.source):
             return str(measure.of)
@@ -181,18 +187,16 @@ class _NeighbourComputation:
         return float(evaluate_expression_for_runs(self.simulation.source, expr, self.table.p, values_by_name)[i])
 
     def _report_progress(self, fraction: float, text: str) -> None:
-        """Call the progress function with fraction 1, so that the caller may cancel; the runs themselves are
-        finished.
-        """
+        """Call the progress function with fraction 1, since the runs themselves are finished; it may cancel the run."""
         if self.progress:
             self.progress(1.0, text)
 
 
 def _read_statistic(statistic: str, lyapunov: Lyapunov | None, initial_error: float) -> float:
-    """Return the value of a statistic from a computed Lyapunov exponent; NaN for None.
+    """Return the value of a statistic (a key of NEIGHBOUR_STATISTICS) from a computed `Lyapunov` result; NaN for None.
 
-    initial_error: relative error of the initial state for the predictability horizon. A periodic motion is its period
-    in returns, other kinds of motion are codes (KINDS).
+    initial_error: relative error of the initial state, for the predictability horizon. A periodic motion is coded by
+    its period in returns, other kinds of motion by MOTION_CODES.
     """
     if lyapunov is None:
         return math.nan
@@ -200,7 +204,7 @@ def _read_statistic(statistic: str, lyapunov: Lyapunov | None, initial_error: fl
         return lyapunov.believable(initial_error)
     if statistic == "motion":
         motion = lyapunov.motion
-        return float(motion.period) if motion.kind == PERIODIC else KINDS[motion.kind]
+        return float(motion.period) if motion.kind == PERIODIC else MOTION_CODES[motion.kind]
     values: dict[str, Any] = {
         "lyapunov": lambda: lyapunov.exponent,
         "lyapunov_error": lambda: lyapunov.uncertainty,

@@ -1,4 +1,4 @@
-"""Write the results of a finished study as one NetCDF 4 file, in portions, so that they need not fit into memory."""
+"""Merge the blocks of a finished study into one NetCDF 4 file, block by block, so that memory does not limit it."""
 
 from __future__ import annotations
 
@@ -18,15 +18,18 @@ from gudgeon.studies.ensemble.measures import describe_measure
 from gudgeon.studies.ensemble.notes import MAX_NOTES, Note, get_message_kind, merge_notes
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
-JOINED_BYTES = 1 << 20  # bytes of blocks that are written at once
-MOST_COORDINATES = 6  # that name a run
-MOST_KINDS, MAX_TEXT_LENGTH = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
+JOINED_BYTES = 1 << 20  # approximate size of joined blocks that are written at once
+MAX_LISTED_COORDINATES = 6  # coordinates that identify the run of a note
+MAX_FAILURE_KINDS, MAX_TEXT_LENGTH = (
+    50,
+    50_000,
+)  # kinds of failures, characters of an attribute: HDF5 has no longer ones
 
 
 def write_dataset(folder: StudyFolder) -> None:
-    """Write all blocks of a study as `study.nc` in its folder, replacing the file only when it is complete.
+    """Merge all blocks of a study into `study.nc` in its folder, which is replaced atomically when it is complete.
 
-    Raises OutputError, or LookupError for a missing block.
+    Called once all blocks are finished. Raises OutputError, or LookupError for a missing block.
     """
     t, common = _find_common_times(folder)
     with open_atomic(folder.path / DATASET, sync=True) as file:
@@ -38,15 +41,14 @@ def _read_blocks(folder: StudyFolder) -> Iterator[Block]:
     for description in folder.plan.blocks:
         block = folder.read_block(description.number)
         if block is None:
-            raise LookupError(f"block {description.number} is gone")
+            raise LookupError(f"block {description.number} is missing")
         yield block
 
 
 def _join_small_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield the blocks, neighbouring ones joined up to about JOINED_BYTES bytes, since a write costs about the same for
-    any size.
+    """Yield the blocks, consecutive ones concatenated to about JOINED_BYTES bytes, since each write has a fixed cost.
 
-    Blocks with different numbers of samples are not joined.
+    Blocks with different numbers of samples are not concatenated.
     """
     pending, pending_bytes = list[Block](), 0
     for block in blocks:
@@ -60,9 +62,9 @@ def _join_small_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
 
 
 def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
-    """Return consecutive blocks as one; a single block is returned unchanged.
+    """Return consecutive blocks with the same number of samples as one block; a single block is returned unchanged.
 
-    Times stay one axis if all blocks share it, else they become (n, N).
+    Sample times stay (N,) if all blocks share them, else they become (n, N).
     """
     first = blocks[0]
     if len(blocks) == 1:
@@ -76,13 +78,13 @@ def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
     )
     failures = tuple(message for block in blocks for message in block.failures)
     t_last, notes = np.concatenate([block.t_last for block in blocks]), merge_notes(block.notes for block in blocks)
-    return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
+    return Block(first.number, first.first_run, measures, failures, t_last, t, series, notes)
 
 
 def _find_common_times(folder: StudyFolder) -> tuple[Array, bool]:
-    """Return the sample times (N,) and True if all runs share them, else N values of NaN for the longest run and False.
+    """Return the sample times (N,) and True if all runs share them; else N values of NaN and False.
 
-    All blocks are read if the study stores series.
+    N is then the largest number of samples of a run. All blocks are read if the study stores series; otherwise N is 0.
     """
     common: Array | None = None
     is_common, max_samples = True, 0
@@ -96,10 +98,10 @@ def _find_common_times(folder: StudyFolder) -> tuple[Array, bool]:
 
 
 def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_common_times: bool) -> None:
-    """Write coordinates, variables, notes and counts of failures of all blocks to an open file, block by block.
+    """Write coordinates, variables, notes and counts of failures of all blocks to an open binary file.
 
-    t (N,): common sample times, or NaN if `has_common_times` is False; then the samples are numbered and each run has
-    its times.
+    t (N,): common sample times. If `has_common_times` is False, only its length is used: the dimension is then
+    `sample`, and the variable `t` has the times of each run. Raises LookupError for a missing block.
     """
     h5py, plan = import_h5py(), folder.plan
     kinds: Counter[str] = Counter()
@@ -125,20 +127,20 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_comm
         for block in _join_small_blocks(_read_blocks(folder)):
             _write_values(variables, plan, block, has_common_times)
             notes = merge_notes((notes, block.notes))
-            for run, why in enumerate(block.failures, block.first):
-                if why:
-                    kinds[kind := get_message_kind(why)] += 1
+            for run, reason in enumerate(block.failures, block.first_run):
+                if reason:
+                    kinds[kind := get_message_kind(reason)] += 1
                     first.setdefault(kind, run)
         frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MAX_NOTES]
         lines = (*plan.notes, *(_format_note(plan, note) for note in frequent))
         file.attrs["notes"] = "\n".join(lines)[: MAX_TEXT_LENGTH // 4]
         file.attrs["failed"] = sum(kinds.values())
-        file.attrs["failure_kinds"] = json.dumps(often := dict(kinds.most_common(MOST_KINDS)))
-        file.attrs["failure_first"] = json.dumps([first[kind] for kind in often])
+        file.attrs["failure_kinds"] = json.dumps(most_frequent := dict(kinds.most_common(MAX_FAILURE_KINDS)))
+        file.attrs["failure_first"] = json.dumps([first[kind] for kind in most_frequent])
 
 
 def _format_note(plan: Plan, note: Note) -> str:
-    """Return a note as a line: the number of runs that have it, and the first of them with its coordinates."""
+    """Return a note as one line: "3 of 4 runs, such as run 0 (c=1e-06): text"."""
     indices = dict(zip(plan.dims, np.unravel_index(note.run, plan.shape) if plan.shape else (), strict=True))
     coordinates = (
         coordinate
@@ -146,27 +148,27 @@ def _format_note(plan: Plan, note: Note) -> str:
         if coordinate.over and set(coordinate.over) <= {*indices} and coordinate.over == coordinate.over[:1]
     )
     values = [
-        f"{coordinate.name}={_format_value(coordinate.values[indices[coordinate.over[0]]])}"
+        f"{coordinate.name}={_format_coordinate_value(coordinate.values[indices[coordinate.over[0]]])}"
         for coordinate in coordinates
-    ][:MOST_COORDINATES]
+    ][:MAX_LISTED_COORDINATES]
     such = f" ({', '.join(values)})" if values else ""
     return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
 
 
-def _format_value(value: Any) -> str:
-    """Return a value of a coordinate as text: a word, or a number with six digits."""
+def _format_coordinate_value(value: Any) -> str:
+    """Return a value of a coordinate as text: a word unchanged, a number with six digits."""
     return str(value) if isinstance(value, str) else f"{value:.6g}"
 
 
 def _write_attributes(file: Any, plan: Plan) -> None:
-    """Write title, mechanism, version, digests and the study itself as attributes of the dataset.
+    """Write title, mechanism, version, digests and the study (as JSON) as global attributes of an open dataset.
 
-    A study of more than MAX_TEXT_LENGTH characters is left out.
+    A study of MAX_TEXT_LENGTH characters or more becomes "".
     """
     import gudgeon
 
     source = plan.parts[0].simulation.source
-    specified = json.dumps(plan.study.specified)  # where it is too long, the folder's own file has it
+    specified = json.dumps(plan.study.specified)  # a longer one is in the manifest of the folder only
     attributes = {
         "title": plan.study.title or source.title,
         "mechanism": source.mechanism,
@@ -181,9 +183,10 @@ def _write_attributes(file: Any, plan: Plan) -> None:
 
 
 def _write_coordinate(h5py: Any, file: Any, coordinate: Coordinate) -> None:
-    """Write a coordinate with unit and meaning to an open dataset.
+    """Write a coordinate with unit and description to an open dataset.
 
-    A coordinate of its own dimension becomes a dimension scale, any other refers to the scales of its dimensions.
+    A coordinate along the dimension of the same name becomes its dimension scale. Any other is attached to the existing
+    scales of its dimensions.
     """
     values = np.asarray(coordinate.values)
     kind = h5py.string_dtype() if values.dtype.kind in "OU" else values.dtype
@@ -199,7 +202,7 @@ def _write_coordinate(h5py: Any, file: Any, coordinate: Coordinate) -> None:
 
 
 def _set_attributes(variable: Any, unit: str, meaning: str) -> None:
-    """Set `units` and `long_name` of a variable; empty texts are left out."""
+    """Set the attributes `units` and `long_name` of a variable; empty texts are left out."""
     if unit:
         variable.attrs["units"] = unit
     if meaning:
@@ -207,25 +210,26 @@ def _set_attributes(variable: Any, unit: str, meaning: str) -> None:
 
 
 def _create_variables(h5py: Any, file: Any, plan: Plan, n_samples: int, has_common_times: bool) -> dict[str, Any]:
-    """Create the empty variables of measures, ends, failures and series over all dimensions, and return them by name.
+    """Create the variables of measures, end times, failures and series over all dimensions, and return them by name.
 
-    has_common_times: whether series are over `time`; otherwise over `sample`, with a variable `t`.
+    has_common_times: whether series are over `time`; otherwise they are over `sample`, with a variable `t`. Floats are
+    filled with NaN.
     """
     variables: dict[str, Any] = {}
 
     def add_variable(name: str, dimensions: tuple[str, ...], dtype: Any, unit: str, description: str) -> None:
         """Create one variable over these dimensions, filled with NaN if its type is float."""
         shape = tuple(len(file[dimension]) for dimension in dimensions)
-        more = {} if dtype is not float else {"fillvalue": np.nan}
-        variables[name] = file.create_dataset(name, shape, dtype=dtype, **more)
+        options = {} if dtype is not float else {"fillvalue": np.nan}
+        variables[name] = file.create_dataset(name, shape, dtype=dtype, **options)
         _set_attributes(variables[name], unit, description)
         for k, dimension in enumerate(dimensions):
             variables[name].dims[k].attach_scale(file[dimension])
 
     for measure in plan.run_settings.measures:
         add_variable(measure.name, plan.dims, float, plan.units[measure.name], describe_measure(measure))
-    add_variable("t_last", plan.dims, float, "s", "where the run ended")
-    add_variable("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
+    add_variable("t_last", plan.dims, float, "s", "end time of the run")
+    add_variable("failure", plan.dims, h5py.string_dtype(), "", "reason of a failed run, empty for any other run")
     auxiliary = " ".join(measure.name for measure in plan.coordinates if measure.over != (measure.name,))
     over = (*plan.dims, "time" if has_common_times else "sample")
     for name in plan.run_settings.keep:
@@ -233,12 +237,12 @@ def _create_variables(h5py: Any, file: Any, plan: Plan, n_samples: int, has_comm
     if plan.run_settings.keep and not has_common_times:
         add_variable("t", over, float, "s", "time of the sample")
     for variable in variables.values() if auxiliary else ():
-        variable.attrs["coordinates"] = auxiliary  # as CF has it
+        variable.attrs["coordinates"] = auxiliary  # convention of CF
     return variables
 
 
 def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_common_times: bool) -> None:
-    """Write measures, ends, failures and series of a block into the variables at the positions of its runs."""
+    """Write measures, end times, failures and series of a block into the variables, at the indices of its runs."""
     n = len(block.t_last)
     values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
     values |= block.series
@@ -246,8 +250,8 @@ def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_commo
         began = ~np.isnan(block.t_last)[:, None]
         values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():
-        for index, rows in split_into_boxes(plan.shape, block.first, block.first + n):
-            column_part = column[rows.start - block.first : rows.stop - block.first]
+        for index, rows in split_into_boxes(plan.shape, block.first_run, block.first_run + n):
+            column_part = column[rows.start - block.first_run : rows.stop - block.first_run]
             shape = _compute_slice_shape(plan.shape, index)
             if column.ndim == 2:
                 variables[name][(*index, slice(0, column.shape[1]))] = column_part.reshape(*shape, column.shape[1])
@@ -256,16 +260,19 @@ def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_commo
 
 
 def _compute_slice_shape(shape: tuple[int, ...], index: tuple[Any, ...]) -> tuple[int, ...]:
-    """Return the lengths of the slices of an index into an array of this shape; integers in it have no length."""
+    """Return the shape of array[index] for an array of this shape; index: integers and slices, as in
+    `split_into_boxes`.
+    """
     slices = (range(length)[part] for part, length in zip(index, shape, strict=True) if isinstance(part, slice))
     return tuple(len(part) for part in slices)
 
 
 def split_into_boxes(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple[Any, ...], slice]]:
-    """Yield boxes of an array of this shape that together hold its elements first … last − 1 in C order.
+    """Yield the rectangular boxes of an array of this shape that make up its elements first … last − 1 in C order.
 
-    Each is an index (integers and slices) and the slice of flat element numbers that it contains. An array of shape ()
-    has one empty index.
+    Each is a pair: the index of the box (integers and slices), and the slice of the flat element numbers in it. For
+    example, elements 1 … 5 of shape (2, 3) are ((0, slice(1, 3)), slice(1, 3)) and ((slice(1, 2), slice(0, 3)),
+    slice(3, 6)). An array of shape () has one empty index.
     """
     if not shape:
         yield (), slice(first, last)

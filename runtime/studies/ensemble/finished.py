@@ -1,4 +1,4 @@
-"""Own `Study`, a finished study in its folder, from which datasets and tables are read on request."""
+"""Own `Study`, the results of a finished study in its folder: datasets, tables and claims are read on request."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import open_atomic
 from gudgeon.language.argument_checks import check_names, check_path
 from gudgeon.language.names import make_missing_name_error
-from gudgeon.studies.ensemble.claim_tables import Claimed, read_claims
+from gudgeon.studies.ensemble.claim_tables import JudgedClaims, read_judged_claims
 from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, import_h5py
-from gudgeon.studies.ensemble.names import Names, read_names
+from gudgeon.studies.ensemble.names import Names, read_display_names
 
 if TYPE_CHECKING:
     import pandas
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from gudgeon.studies.show.study_page import StudyReport
     from gudgeon.studies.show.study_plots import StudyPlot
 
-_CHUNK = 1 << 20
+_CHUNK = 1 << 20  # bytes that are copied at once
 
 
 class Study:
-    """A finished study in its folder, from which datasets and tables are read on request."""
+    """The results of a finished study in its folder, from which datasets and tables are read on request."""
 
     def __init__(
         self,
@@ -38,10 +38,10 @@ class Study:
         temporary_folder: tempfile.TemporaryDirectory[str] | None = None,
         parent_study: Study | None = None,
     ) -> None:
-        """Open a study in a folder, without access to the disk.
+        """Refer to the study in a folder, without access to the disk.
 
-        temporary_folder: temporary folder that lives as long as the study. parent_study: the study of which this is a
-        part.
+        temporary_folder: kept until the study is deleted; None for a permanent folder. parent_study: the study of which
+        this is a part.
         """
         self.folder, self._temporary_folder, self._whole = folder, temporary_folder, parent_study
 
@@ -74,23 +74,21 @@ class Study:
         return {}
 
     @cached_property
-    def claims(self) -> Claimed:
-        """Return the claims of the file, judged by the runs: `claims.numbers` and `claims.trends`, two tables.
+    def claims(self) -> JudgedClaims:
+        """Return the claims of the file, judged by the runs: the tables `claims.numbers` and `claims.trends`.
 
-        Of a study in parts, each part has the numbers that name it, and all trends. Raises GudgeonError for a file
-        without claims.
+        A part of a study has the numbers that name the part, and all trends. Raises GudgeonError for a file without
+        claims.
         """
         if self._whole is None:
-            return read_claims(self.folder)
+            return read_judged_claims(self.folder)
         study_claims = self._whole.claims
         return study_claims._replace(numbers=study_claims.numbers[study_claims.numbers["part"] == self.folder.name])
 
     @cached_property
     def names(self) -> Names:
-        """Return titles and texts of values, which reports display in place of names and numbers; a part has those of
-        its file.
-        """
-        return read_names(self.folder) if self._whole is None else self._whole.names
+        """Return the display texts of names and values for reports; a part has those of the whole study."""
+        return read_display_names(self.folder) if self._whole is None else self._whole.names
 
     @property
     def tree(self) -> xarray.DataTree:
@@ -106,7 +104,7 @@ class Study:
 
     @property
     def failed(self) -> int:
-        """Return the number of runs that did not reach their end; `dataset["failure"]` has the reasons."""
+        """Return the number of failed runs; `dataset["failure"]` has the reasons."""
         return int(self.dataset.attrs["failed"])
 
     @property
@@ -126,7 +124,7 @@ class Study:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return the notes on the study, one text each."""
+        """Return the notes on the study and its runs, a text for each kind: of the plan, then of runs by frequency."""
         return tuple(filter(None, str(self.dataset.attrs["notes"]).split("\n")))
 
     @property
@@ -144,11 +142,11 @@ class Study:
         With names of stored series it has a row for each sample instead. Raises UnknownNameError for a series that the
         study did not store.
         """
-        requested = check_names(series, "series", "a list of names of kept series")
+        requested = check_names(series, "series", "a list of names of stored series")
         for name in requested:
             if name not in self.dataset.data_vars or name in (*self.measures, "t_last", "failure", "t"):
-                kept = tuple(str(variable) for variable in self.dataset.data_vars if "." in str(variable))
-                raise make_missing_name_error(f"the study kept no series {name!r}", name, kept)
+                stored = tuple(str(variable) for variable in self.dataset.data_vars if "." in str(variable))
+                raise make_missing_name_error(f"the study stored no series {name!r}", name, stored)
         times = ["t"] if requested and "t" in self.dataset else []
         variables = (
             self.dataset[[*times, *requested]] if requested else self.dataset[[*self.measures, "t_last", "failure"]]
@@ -163,21 +161,19 @@ class Study:
 
     @property
     def plot(self) -> StudyPlot:
-        """Return the figures of the study, such as `study.plot.measure("peak", "c")` or `study.plot.bands("S9.y")`."""
+        """Return the plotting methods of the study: `study.plot.measure("peak", "c")`, `study.plot.bands("S9.y")`."""
         from gudgeon.studies.show.study_plots import StudyPlot
 
         return StudyPlot(self)
 
     def report(self) -> StudyReport:
-        """Return a report of variations, failures, measures and figures: `.to_html()`, or in a notebook."""
+        """Return the report of the study: `.to_html()` returns a page, and a notebook displays the report itself."""
         from gudgeon.studies.show.study_page import StudyReport
 
         return StudyReport(self)
 
     def save(self, target: str | os.PathLike[str]) -> None:
-        """Write the dataset as one NetCDF file to the path `target`, a copy of the study's own file. Raises
-        OutputError.
-        """
+        """Copy the NetCDF file of the dataset to the path `target`, replacing an existing file. Raises OutputError."""
         with open(self.folder / DATASET, "rb") as source, open_atomic(check_path(target, "path")) as file:
             while data := source.read(_CHUNK):
                 file.write(data)
@@ -189,9 +185,9 @@ class StudyOfParts(Study):
     def __init__(
         self, folder: Path, parts: Sequence[str], temporary_folder: tempfile.TemporaryDirectory[str] | None = None
     ) -> None:
-        """Open the studies of all parts in the subfolders of a folder.
+        """Refer to the studies of all parts in the subfolders of a folder, without access to the disk.
 
-        parts: names of the subfolders. temporary_folder: temporary folder that lives as long as the study.
+        parts: names of the parts and subfolders. temporary_folder: kept until the study is deleted.
         """
         super().__init__(folder, temporary_folder)
         self._parts = {name: Study(folder / name, temporary_folder, self) for name in parts}
@@ -264,8 +260,8 @@ class StudyOfParts(Study):
             file.write(bytes(self.tree.to_netcdf(engine="h5netcdf")))
 
     def _make_part_error(self, request: str) -> GudgeonError:
-        """Return the error for a request, such as "dataset", that must be made to a part; it names the parts."""
+        """Return the error for an attribute, such as "dataset", that only the parts have; it lists the parts."""
         name = next(iter(self._parts))
         return GudgeonError(
-            f"this study has parts: {', '.join(self._parts)}\n  ask one: study.parts[{name!r}].{request}"
+            f"this study has parts: {', '.join(self._parts)}\n  use one of them: study.parts[{name!r}].{request}"
         )

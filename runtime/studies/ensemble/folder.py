@@ -1,5 +1,6 @@
-"""Own the folder of a study on disk: manifest, results of finished runs, and a lock that admits one writer. A kill at
-any moment loses one block.
+"""Own the folder of a study on disk (checkpoints): manifest, blocks of finished runs, and a lock for a single writer.
+
+A kill at any moment loses at most the unfinished blocks.
 """
 
 from __future__ import annotations
@@ -31,25 +32,24 @@ if TYPE_CHECKING:
 MANIFEST, DATASET, LOCK = "study.json", "study.nc", ".lock"
 _BLOCK = re.compile(r"block-[0-9]{6,9}\.nc")
 _MAX_LISTED = 6
-MAX_RECENT_BYTES = 4 << 20  # bytes of blocks that stay in memory
+MAX_RECENT_BYTES = 4 << 20  # maximum size of the written blocks that stay in memory
 
 
 class StudyFolder:
-    """A folder of a study that one process writes to, with its lock."""
+    """A folder of a study that one process writes to; use it within `open_locked`."""
 
     def __init__(self, path: str | os.PathLike[str], plan: Plan) -> None:
         """Store path and plan without access to the disk."""
         self.path, self.plan = Path(path), plan
-        self.recent: dict[int, Block] = {}  # written here, and read again for the dataset, as long as they are small
-        self.held = 0  # bytes of these
+        self.recent_blocks: dict[int, Block] = {}  # written blocks in memory, for the dataset
+        self.recent_bytes = 0
 
     @contextmanager
     def open_locked(self, restart: bool) -> Iterator[StudyFolder]:
-        """Create and lock the folder, check that it belongs to the plan, and yield it; the lock is released at the
-        end.
+        """Create and lock the folder, check that it belongs to the plan, and yield it; the lock is released at the end.
 
-        restart: remove the blocks of any earlier study. Raises InputError if another process holds the lock, or for a
-        folder with other contents or another study; OutputError.
+        restart: remove the blocks of an earlier study first. Raises InputError if another process has the lock, or for
+        a folder with other contents or another study; OutputError.
         """
         from filelock import FileLock, Timeout
 
@@ -59,8 +59,8 @@ class StudyFolder:
             try:
                 lock.acquire(timeout=0)
             except Timeout:
-                message = f"another process is at work in {shorten_path(self.path)}"
-                raise InputError(message, hint="wait for it, or name another folder") from None
+                message = f"another process writes to {shorten_path(self.path)}"
+                raise InputError(message, hint="wait until it ends, or name another folder") from None
         try:
             self._prepare_contents(restart)
             yield self
@@ -68,27 +68,27 @@ class StudyFolder:
             lock.release()
 
     def _prepare_contents(self, restart: bool) -> None:
-        """Check the contents of the folder, remove temporary files of killed processes, and write the manifest of a
-        new study.
+        """Check the contents of the folder, remove temporary files, and write the manifest of a new study.
 
-        Existing blocks are kept if the manifest is equal, and removed with `restart` or for other block sizes. Raises
-        InputError for foreign files or another study.
+        Existing blocks stay if the manifest has the same inputs and block sizes. With `restart`, or for other block
+        sizes, blocks, dataset and manifest are removed first. Raises InputError for a folder with other files or
+        another study.
         """
         file_names = sorted(name for name in os.listdir(self.path) if name != LOCK)
         old_manifest = read_manifest(self.path)
         foreign = [name for name in file_names if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
         if old_manifest is None and foreign:
-            message = f"{shorten_path(self.path)} is no folder of a study: it holds {foreign[0]}"
+            message = f"{shorten_path(self.path)} is not a study folder: it contains {foreign[0]}"
             raise InputError(message, hint="name another folder")
         for name in file_names:
             if PART.fullmatch(name):  # of a process that was killed
                 (self.path / name).unlink(missing_ok=True)
-        blocks = [part.block for part in self.plan.parts]
+        blocks = [part.block_runs for part in self.plan.parts]
         if old_manifest is not None and not restart:
             if old_manifest.get("said") != self.plan.input_description:
                 what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.input_description))
-                hint = "begin anew with --restart (restart=True), or name another folder"
-                raise InputError(f"{shorten_path(self.path)} holds another study:\n  {what}", hint=hint)
+                hint = "start the study again with --restart (restart=True), or name another folder"
+                raise InputError(f"{shorten_path(self.path)} contains another study:\n  {what}", hint=hint)
             if old_manifest.get("blocks") == blocks:
                 return
         for name in [name for name in file_names if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
@@ -99,35 +99,36 @@ class StudyFolder:
             file.write(text.encode())
 
     def has_block(self, number: int) -> bool:
-        """Return whether a block exists, is undamaged, and belongs to this plan; the block is read for that."""
+        """Return whether a block exists, is undamaged, and belongs to this plan; the whole block is read."""
         return self.read_block(number) is not None
 
     def count_block_files(self) -> int:
-        """Return the number of block files without reading them, for messages; 0 if the folder cannot be listed."""
+        """Return the number of block files, also damaged ones, for messages; 0 if the folder cannot be listed."""
         try:
             return sum(bool(_BLOCK.fullmatch(name)) for name in os.listdir(self.path))
         except OSError:
             return 0
 
     def write_block(self, block: Block) -> None:
-        """Write a block as one file, complete on the disk on return. Raises OutputError.
+        """Write a block atomically as one file, which is on the disk (fsync) on return. Raises OutputError.
 
-        Small blocks also stay in memory, up to MAX_RECENT_BYTES bytes in total.
+        The block also stays in memory if all such blocks together do not exceed MAX_RECENT_BYTES.
         """
         data = encode_block(block, self.plan.digest)
         with open_atomic(self._get_block_path(block.number), sync=True) as file:
             file.write(data)
-        if self.held + block.nbytes <= MAX_RECENT_BYTES:
-            self.recent[block.number] = block
-            self.held += block.nbytes
+        if self.recent_bytes + block.nbytes <= MAX_RECENT_BYTES:
+            self.recent_blocks[block.number] = block
+            self.recent_bytes += block.nbytes
 
     def read_block(self, number: int) -> Block | None:
-        """Return a block, from memory or its file; None if it is missing, damaged or of another plan, so that it is
-        run again.
+        """Return a block from memory or its file; None for a missing or damaged file, or one of another plan.
+
+        The caller then runs the block again.
         """
         path = self._get_block_path(number)
-        if number in self.recent and path.exists():
-            return self.recent[number]
+        if number in self.recent_blocks and path.exists():
+            return self.recent_blocks[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
             if (data := read_regular_file(path)) is not None:
                 return decode_block(data, self.plan, number)
@@ -139,7 +140,7 @@ class StudyFolder:
 
 
 def read_manifest(folder: Path) -> dict[str, Any] | None:
-    """Return the manifest study.json of a folder; None if it is missing or is not a JSON mapping."""
+    """Return the manifest study.json of a folder as a mapping; None if it is missing, unreadable or not a mapping."""
     try:
         data = read_regular_file(folder / MANIFEST)
         manifest = None if data is None else json.loads(data)
@@ -149,9 +150,10 @@ def read_manifest(folder: Path) -> dict[str, Any] | None:
 
 
 def create_parts_folder(path: Path, part_names: Sequence[str], restart: bool) -> None:
-    """Create the folder of a study with parts and write its manifest; each part gets a subfolder later.
+    """Create the folder of a study with parts and write its manifest; the parts create their subfolders later.
 
-    restart: replace a study without parts. Raises InputError for a folder with other contents, OutputError.
+    restart: replace the manifest of a study without parts. Raises InputError for a folder with other contents, or
+    without `restart` with a study without parts; OutputError.
     """
     with convert_os_errors(path):
         path.mkdir(parents=True, exist_ok=True)
@@ -159,17 +161,17 @@ def create_parts_folder(path: Path, part_names: Sequence[str], restart: bool) ->
     old_manifest = read_manifest(path)
     if file_names and old_manifest is None:
         raise InputError(
-            f"{shorten_path(path)} is no folder of a study: it holds {file_names[0]}", hint="name another folder"
+            f"{shorten_path(path)} is not a study folder: it contains {file_names[0]}", hint="name another folder"
         )
     if old_manifest is not None and "parts" not in old_manifest and not restart:
-        hint = "begin anew with --restart (restart=True), or name another folder"
-        raise InputError(f"{shorten_path(path)} holds a study without parts", hint=hint)
+        hint = "start the study again with --restart (restart=True), or name another folder"
+        raise InputError(f"{shorten_path(path)} contains a study without parts", hint=hint)
     with open_atomic(path / MANIFEST, sync=True) as file:
         file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(part_names)}, indent=1).encode())
 
 
 def list_part_names(manifest: Mapping[str, Any]) -> list[str]:
-    """Return the names of the parts in a manifest; invalid names are left out, and without parts the list is empty."""
+    """Return the names of the parts in a manifest; invalid names are left out. Empty for a study without parts."""
     names = manifest.get("parts")
     part_names = names if isinstance(names, list) else []
     return [name for name in part_names if isinstance(name, str) and re.fullmatch(LABEL, name)]
@@ -184,38 +186,42 @@ def check_dataset(folder: Path, plan_digest: Any) -> None:
     with convert_read_errors(path), import_h5py().File(path, "r") as file:
         is_complete = file.attrs["plan"] == plan_digest and len(file["failure"].shape) >= 0
     if not is_complete:
-        raise InputError(f"{shorten_path(path)} is of another study", hint="remove it: it is written anew")
+        raise InputError(f"{shorten_path(path)} belongs to another study", hint="remove the file: it is written again")
 
 
 @contextmanager
 def convert_read_errors(path: Path) -> Iterator[None]:
-    """Convert errors of HDF5 within this context, as a damaged file causes them, to InputError with the path."""
+    """Convert errors of HDF5 within this context, such as those of a damaged file, to InputError with the path."""
     try:
         yield
     except (OSError, KeyError, ValueError, RuntimeError) as error:
         message = f"{shorten_path(path)} cannot be read: {escape_line_breaks(str(error))[:200]}"
-        raise InputError(message, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
+        hint = "remove the file: gudgeon study FILE --out FOLDER writes it again"
+        raise InputError(message, hint=hint) from error
 
 
 def _describe_differences(old_inputs: Any, new_inputs: Any) -> list[str]:
-    """Return a line for each input that differs between two studies: "name was …, is …".
+    """Return a line for each input that differs between two studies: "t_end was '20 ms', is '30 ms'".
 
-    Beyond _MAX_LISTED lines, a last one has the number of further differences.
+    Arguments are nested JSON data. After _MAX_LISTED lines, a last one has the number of further differences.
     """
     old, new = dict(_iterate_leaves(old_inputs)), dict(_iterate_leaves(new_inputs))
     lines = []
     for key in dict.fromkeys([*old, *new]):
         if old.get(key) != new.get(key):
             old_text, new_text = (
-                shorten_value(manifest[key]) if key in manifest else "not said" for manifest in (old, new)
+                shorten_value(inputs[key]) if key in inputs else "not specified" for inputs in (old, new)
             )
             lines.append(f"{key.removeprefix('study.')} was {old_text}, is {new_text}")
-    rest = [f"and {len(lines) - _MAX_LISTED} more"] if len(lines) > _MAX_LISTED else []
+    rest = [f"and {len(lines) - _MAX_LISTED} further differences"] if len(lines) > _MAX_LISTED else []
     return lines[:_MAX_LISTED] + rest
 
 
 def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield key path ("a.b[2]") and value of all leaves of nested mappings and lists; `key` is the path of the node."""
+    """Yield path ("a.b[2]") and value of all leaves of nested mappings and lists; `key` is the path of `node`.
+
+    Empty mappings and lists yield nothing.
+    """
     if isinstance(node, Mapping):
         for name, below in node.items():
             yield from _iterate_leaves(below, f"{key}.{name}" if key else str(name))
@@ -228,7 +234,7 @@ def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
 
 @cache
 def import_h5py() -> Any:
-    """Return the module h5py, imported once. Raises GudgeonError if h5py, xarray or h5netcdf is not installed."""
+    """Import h5py and return it (cached). Raises GudgeonError if h5py, xarray or h5netcdf is not installed."""
     if not all(map(find_spec, ("h5py", "xarray", "h5netcdf"))):
         raise GudgeonError("studies need xarray and h5py: pip install 'gudgeon[xarray]'")
     import h5py
@@ -237,9 +243,9 @@ def import_h5py() -> Any:
 
 
 def encode_block(block: Block, digest: str) -> bytes:
-    """Return a block as the bytes of an HDF5 file with checksums and the plan's digest.
+    """Serialize a block as the bytes of an HDF5 file with checksums and the plan's digest.
 
-    Measures and end times are one array, failures and notes one array of JSON, since each array costs time.
+    To save time, measures and end times are one array, and failures and notes one array of JSON text.
     """
     h5py, buffer = import_h5py(), io.BytesIO()
     with h5py.File(buffer, "w") as file:
@@ -255,9 +261,9 @@ def encode_block(block: Block, digest: str) -> bytes:
 
 
 def decode_block(data: bytes, plan: Plan, number: int) -> Block | None:
-    """Return the block that `encode_block` wrote; None if digest or number are of another plan.
+    """Deserialize the bytes of `encode_block` and return the block; None if digest or number belong to another plan.
 
-    Raises OSError, ValueError, KeyError or TypeError for damaged bytes.
+    Raises OSError, ValueError, KeyError, TypeError or RuntimeError for damaged bytes.
     """
     h5py = import_h5py()
     description = plan.blocks[number]
@@ -279,7 +285,7 @@ def decode_block(data: bytes, plan: Plan, number: int) -> Block | None:
     by_name = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
     return Block(
         number,
-        description.part * plan.each + description.first,
+        description.part * plan.runs_per_part + description.first_run,
         by_name[0],
         tuple(failures),
         t_last,
@@ -290,7 +296,7 @@ def decode_block(data: bytes, plan: Plan, number: int) -> Block | None:
 
 
 def _read_array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:
-    """Return an array of an open file as floats. Raises ValueError unless it has this shape; None: any length."""
+    """Return an array of an open HDF5 file as floats. Raises ValueError for another shape; None in it: any length."""
     array = np.asarray(file[name], dtype=float)
     if len(array.shape) != len(shape) or any(
         n not in (None, length) for n, length in zip(shape, array.shape, strict=True)

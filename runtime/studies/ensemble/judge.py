@@ -1,8 +1,7 @@
-"""Estimate the probability that a further run of a scene confirms a published claim, and derive a verdict.
+"""Estimate the probability that a further run satisfies a published claim, with a confidence interval, and judge it.
 
-From few runs the probability is known as an interval only. The verdict is "holds" if the whole interval lies at 0.8 or
-above, "fails" if it lies at 1/3 or below, else "undecided". Ensembles of one distribution therefore contradict each
-other only as often as the intervals allow.
+The interval is Wilson's. The verdict is "holds" if the whole interval lies at 0.8 or above, "fails" if it lies at 1/3
+or below, else "undecided". Ensembles of one distribution therefore disagree only as often as the intervals allow.
 """
 
 from __future__ import annotations
@@ -18,39 +17,40 @@ import numpy as np
 
 from gudgeon.results.batch import Array
 
-HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
-MAX_COMBINATIONS = 1 << 20  # combinations that are evaluated one by one; of more, so many random ones
+MIN_P_HOLDS, MAX_P_FAILS = 0.8, 1.0 / 3.0  # minimum probability of a claim that holds, maximum of one that fails
+MAX_COMBINATIONS = 1 << 20  # with more combinations, a random sample of this size is evaluated
 TAIL_PROBABILITY = 0.05  # probability beyond each end of an interval
-RUN_INDICES = ""  # in place of a measure: indices of the runs of a cell that have all measures
+RUN_INDICES = ""  # key in place of a measure: indices of the runs of a cell that have all measures
 VERDICTS = ("holds", "fails", "undecided")
 
 
 @dataclass(frozen=True)
-class Cell:
-    """Runs that differ in their starts only: a part, and indices along its other dimensions."""
+class RunCell:
+    """A cell of runs, which differ in ensemble and start only: a part, and indices along its other dimensions."""
 
     part: str
     index: tuple[int, ...]
 
 
 ReadMeasure: TypeAlias = Callable[[int, str], Array]  # number of a check's cell, measure -> values of the runs in it
-Runs: TypeAlias = Mapping[Cell, Mapping[str, Array]]  # measure -> (n,)
+Runs: TypeAlias = Mapping[RunCell, Mapping[str, Array]]  # measure -> (n,)
 
 
 @dataclass(frozen=True, eq=False)
 class Check:
-    """A condition on one run of each of some cells."""
+    """A condition on one run of each of its cells; several checks make up a claim."""
 
-    cells: tuple[Cell, ...]
+    cells: tuple[RunCell, ...]
     measures: tuple[str, ...]
     meets_condition: Callable[[ReadMeasure], Array]
 
 
 @dataclass(frozen=True)
 class ClaimVerdict:
-    """Verdict on a claim of several checks: the least of their probabilities, and the chance that single runs meet all.
+    """Verdict on a claim of several checks, with the probability and the interval low … high of its least likely check.
 
-    `low`, `high`: the interval of the least likely check. `denied`: verdicts that the intervals rule out.
+    `chance`: probability that one run of each cell satisfies all checks. `denied`: verdicts that the intervals rule
+    out.
     """
 
     verdict: str
@@ -59,15 +59,15 @@ class ClaimVerdict:
     high: float
     chance: float
     denied: frozenset[str]
-    estimates: tuple[ProbabilityEstimate, ...]  # of each check
+    estimates: tuple[ProbabilityEstimate, ...]  # one for each check
 
 
 @dataclass(frozen=True)
 class ProbabilityEstimate:
-    """A probability with the equivalent number of independent trials; infinite if the runs do not scatter.
+    """An estimated probability p with the equivalent number of independent trials (effective sample size).
 
-    `runs`: runs of the smallest cell. `shared_trials`, `n_shared_runs`: trials and runs of those cells alone whose runs
-    are the same in every ensemble.
+    `trials` is infinite if the runs do not scatter. `runs`: number of runs of the smallest cell. `shared_trials`,
+    `n_shared_runs`: the same for the cells whose runs are shared by all ensembles.
     """
 
     p: float
@@ -77,11 +77,10 @@ class ProbabilityEstimate:
     n_shared_runs: float = math.inf
 
     def compute_bound(self, sign: float, tail_probability: float = TAIL_PROBABILITY) -> float:
-        """Return the lower (sign −1) or upper (1) end of the confidence interval of the probability.
+        """Return the lower (sign −1) or upper (1) end of Wilson's confidence interval of the probability.
 
-        tail_probability: that the true value lies beyond this end. E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The
-        interval is at least as wide as that of runs that all, or none, meet the condition. Without scatter (infinite
-        trials) or for NaN it is p itself.
+        tail_probability: that the true value lies beyond this end. The lower end is at most that of `runs` successes in
+        `runs` trials, the upper end at least that of none. Without scatter (infinite trials) or for NaN the end is p.
         """
         if not math.isfinite(self.trials) or math.isnan(self.p):
             return self.p
@@ -93,9 +92,10 @@ class ProbabilityEstimate:
 
 
 def _compute_wilson_bound(p: float, n: float, sign: float, tail_probability: float) -> float:
-    """Return the lower (sign −1) or upper (1) end of Wilson's interval for a probability p from n trials, in [0, 1].
+    """Return the lower (sign −1) or upper (1) end of Wilson's score interval for a fraction p of n trials, in [0, 1].
 
-    tail_probability: one-sided probability that the true value lies beyond the end.
+    tail_probability: one-sided probability that the true value lies beyond the end. n need not be a whole number. E. B.
+    Wilson, J. Am. Stat. Assoc. 22, 1927.
     """
     z = NormalDist().inv_cdf(1.0 - tail_probability)
     middle, half_width = p + z * z / (2.0 * n), z * math.sqrt(p * (1.0 - p) / n + (z / (2.0 * n)) ** 2)
@@ -103,14 +103,18 @@ def _compute_wilson_bound(p: float, n: float, sign: float, tail_probability: flo
 
 
 def judge_claim(
-    checks: Sequence[Check], runs: Runs, deterministic_cells: Container[Cell] = (), shared_cells: Container[Cell] = ()
+    checks: Sequence[Check],
+    runs: Runs,
+    deterministic_cells: Container[RunCell] = (),
+    shared_cells: Container[RunCell] = (),
 ) -> ClaimVerdict:
-    """Return the verdict on a claim: it holds if each of its checks is likely, and fails if one is unlikely.
+    """Return the verdict on a claim for one ensemble: it holds if each of its checks is likely, fails if one is
+    unlikely.
 
-    A probability is that of independent runs, one of each cell, estimated from all combinations of runs: for two cells
-    from all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947); ties count as not larger. It is NaN, and the
-    verdict undecided, if a cell has no run with all measures. deterministic_cells: cells whose runs do not scatter;
-    shared_cells: cells whose runs other ensembles share.
+    The probability of a check is the fraction of combinations of runs, one of each cell, that satisfy it: for two cells
+    of all pairs (Mann-Whitney statistic, Ann. Math. Stat. 18, 1947). It is NaN, and the verdict undecided, if a cell
+    has no run with all measures. runs: values of the measures by cell. deterministic_cells: cells whose runs do not
+    scatter. shared_cells: cells whose runs other ensembles share.
     """
     complete_runs = _select_complete_runs(checks, runs)
     chance = math.prod(_evaluate_combinations(group, complete_runs)[0] for group in _group_checks(checks))
@@ -121,11 +125,10 @@ def judge_claim(
 
 
 def merge_verdicts(verdicts: Sequence[ClaimVerdict]) -> tuple[ClaimVerdict, bool]:
-    """Return the common verdict of several ensembles on one claim, and whether no ensemble rules out the verdict of
-    another.
+    """Return the common verdict of several ensembles on one claim, and whether the ensembles agree.
 
-    Probabilities are means over the ensembles. Their trials add up, except for shared runs. Without agreement the
-    verdict is undecided.
+    They agree if no ensemble rules out the verdict of another; otherwise the common verdict is undecided. Probabilities
+    are means over the ensembles. Their trials add up, except those of shared runs.
     """
     mean_chance = math.fsum(verdict.chance for verdict in verdicts) / len(verdicts)
     common = _combine_estimates(
@@ -137,10 +140,10 @@ def merge_verdicts(verdicts: Sequence[ClaimVerdict]) -> tuple[ClaimVerdict, bool
 
 
 def _average_estimates(estimates: Sequence[ProbabilityEstimate]) -> ProbabilityEstimate:
-    """Return the mean of the estimates of one check in several ensembles.
+    """Return the mean estimate of one check over several ensembles, with the trials of all ensembles together.
 
-    The variances of the ensembles' separate runs, 1/trials − 1/shared_trials, decrease with their number; those of
-    shared runs do not.
+    The variance of separate runs, ∝ 1/trials − 1/shared_trials, decreases with the number of ensembles; the variance of
+    shared runs does not.
     """
     p, shared_trials = (
         math.fsum(values) / len(estimates) for values in zip(*((x.p, x.shared_trials) for x in estimates), strict=True)
@@ -163,17 +166,19 @@ def _average_estimates(estimates: Sequence[ProbabilityEstimate]) -> ProbabilityE
 def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) -> ClaimVerdict:
     """Return the verdict on a claim from the estimates of all its checks.
 
-    chance: probability that one run of each cell meets all checks; it is only stored. The claim holds if each check is
-    likely. To fail, the bound of each check is corrected for their number (Bonferroni). It is undecided without checks
-    or with a NaN.
+    The claim holds if the lower bounds of all checks are at least MIN_P_HOLDS. It fails if the upper bound of one
+    check, with a tail probability that is divided by the number of checks (Bonferroni), is at most MAX_P_FAILS. It is
+    undecided otherwise, without checks, or with a NaN. chance: stored in the verdict.
     """
     if not estimates or any(math.isnan(one.p) for one in estimates):
         return ClaimVerdict("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(estimates))
     low = min(one.compute_bound(-1.0) for one in estimates)
     high = min(one.compute_bound(1.0, TAIL_PROBABILITY / len(estimates)) for one in estimates)
     least_likely = min(estimates, key=lambda one: one.p)
-    verdict = "fails" if high <= FAILS else "holds" if low >= HOLDS else "undecided"
-    denied = frozenset(name for name, is_so in (("holds", high < HOLDS), ("fails", low > FAILS)) if is_so)
+    verdict = "fails" if high <= MAX_P_FAILS else "holds" if low >= MIN_P_HOLDS else "undecided"
+    denied = frozenset(
+        name for name, is_denied in (("holds", high < MIN_P_HOLDS), ("fails", low > MAX_P_FAILS)) if is_denied
+    )
     return ClaimVerdict(
         verdict,
         least_likely.p,
@@ -186,11 +191,11 @@ def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) 
 
 
 def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
-    """Return for each cell of the checks the runs that have finite values of all measures that the checks need there.
+    """Return for each cell of the checks its complete runs: those with finite values of all measures that checks need.
 
-    The entry RUN_INDICES of a cell has the indices of these runs.
+    The result has the values of these measures by cell, and the indices of the complete runs as entry RUN_INDICES.
     """
-    measures_by_cell: dict[Cell, dict[str, None]] = {}
+    measures_by_cell: dict[RunCell, dict[str, None]] = {}
     for check in checks:
         for cell in check.cells:
             measures_by_cell.setdefault(cell, {}).update(dict.fromkeys(check.measures))
@@ -205,12 +210,13 @@ def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
 
 
 def _estimate_check_probability(
-    check: Check, runs: Runs, deterministic_cells: Container[Cell], shared_cells: Container[Cell]
+    check: Check, runs: Runs, deterministic_cells: Container[RunCell], shared_cells: Container[RunCell]
 ) -> ProbabilityEstimate:
-    """Return the probability of a check and the number of independent trials that it is worth.
+    """Return the probability of a check, with the number of independent trials of the same variance.
 
-    The trials follow from the variance of the fractions of single runs of each cell (W. Hoeffding, Ann. Math. Stat.
-    19, 1948). They are infinite if no cell scatters or the probability is NaN.
+    runs: complete runs, with RUN_INDICES. The variance is that of a U-statistic, from the fractions of satisfied
+    combinations of single runs (W. Hoeffding, Ann. Math. Stat. 19, 1948). Trials are infinite if all cells are
+    deterministic or the probability is NaN.
     """
     p, is_met, selected = _evaluate_combinations([check], runs)
     fractions = {
@@ -230,10 +236,10 @@ def _estimate_check_probability(
 
 
 def _compute_fractions_by_run(run_numbers: Array, is_met: Array, indices: Array) -> Array:
-    """Return for each run of a cell the fraction of its combinations that meets the check; NaN for a run left out.
+    """Return for each run of a cell the fraction of its combinations that satisfies the check; NaN for incomplete runs.
 
-    run_numbers (n_combinations,): number of the cell's run in each combination. is_met (n_combinations,): whether it
-    meets the check. indices: index of each numbered run in the cell.
+    run_numbers (n_combinations,): number of the cell's complete run in each combination. is_met (n_combinations,):
+    whether the combination satisfies the check. indices: index in the cell of each complete run.
     """
     fractions, counts = np.full(int(indices.max()) + 1, np.nan), np.bincount(run_numbers, minlength=len(indices))
     with np.errstate(invalid="ignore"):
@@ -242,11 +248,12 @@ def _compute_fractions_by_run(run_numbers: Array, is_met: Array, indices: Array)
 
 
 def _estimate_trials(p: float, fractions: Sequence[Array], max_trials: int) -> tuple[float, float]:
-    """Return the number of independent trials that a probability p is worth, and the runs of the smallest cell.
+    """Return the effective number of independent trials of a probability p, and the number of runs of the smallest
+    cell.
 
-    fractions: those of the runs of each cell that meet the check. If fractions of two cells are correlated, as with
-    equal deviations, their covariance adds to the variance. Both results are infinite without cells; trials are at
-    most `max_trials`.
+    fractions: satisfied fraction of each run, an array for each cell. trials = p(1 − p)/variance, at most `max_trials`;
+    a positive covariance of two cells, as with equal deviations, adds to the variance. If no fraction scatters, the
+    trials are the runs of the smallest cell. Both results are infinite without cells.
     """
     if not fractions:
         return math.inf, math.inf
@@ -261,7 +268,7 @@ def _estimate_trials(p: float, fractions: Sequence[Array], max_trials: int) -> t
 
 
 def _compute_mean_covariance(a: Array, b: Array) -> float:
-    """Return the covariance of the means of two arrays, each mean over the finite entries of its own array.
+    """Return the covariance of the means of two arrays over their finite entries; of an array with itself the variance.
 
     It is n cov/(n_a n_b): n pairs of entries with the same index are both finite and have the sample covariance cov;
     n_a, n_b: numbers of finite entries. Lengths may differ. It is 0 for fewer than two such pairs.
@@ -274,11 +281,11 @@ def _compute_mean_covariance(a: Array, b: Array) -> float:
     return float(np.cov(a[:length][is_common], b[:length][is_common])[0, 1]) * n / float(counts[0] * counts[1])
 
 
-def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:
-    """Return the fraction of combinations of runs that meet all checks, a flag for each, and the run of each cell in
-    each.
+def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[RunCell, Array]]:
+    """Evaluate checks on the combinations of complete runs, one of each cell; return fraction, flags and run numbers.
 
-    A combination has one run of each cell. The fraction is NaN and the arrays are empty if a cell has no runs.
+    fraction: of combinations that satisfy all checks; flags (n_combinations,): which do; run numbers (n_combinations,)
+    of each cell. The fraction is NaN and the others are empty if a cell has no runs.
     """
     cells = list(dict.fromkeys(cell for check in checks for cell in check.cells))
     sizes = [len(next(iter(runs[cell].values()))) for cell in cells]
@@ -289,7 +296,7 @@ def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, 
     for check in checks:
 
         def read_measure(k: int, name: str, check: Check = check) -> Array:
-            """Return a measure of cell k of the check for all combinations."""
+            """Return a measure of cell k of the check for all combinations, (n_combinations,)."""
             cell = check.cells[k]
             return runs[cell][name][selected[cell]]
 
@@ -298,10 +305,10 @@ def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, 
 
 
 def _draw_combinations(run_counts: Sequence[int]) -> Sequence[Array]:
-    """Return for each cell the number of its run in each combination: all combinations, or MAX_COMBINATIONS random ones
-    (fixed seed).
+    """Return for each cell the number of its run in each combination, (n_combinations,).
 
-    run_counts: number of runs of each cell.
+    All combinations are enumerated; if there are more than MAX_COMBINATIONS, that many are drawn at random with a fixed
+    seed. run_counts: number of runs of each cell.
     """
     count = math.prod(run_counts)
     if count <= MAX_COMBINATIONS:
@@ -311,8 +318,11 @@ def _draw_combinations(run_counts: Sequence[int]) -> Sequence[Array]:
 
 
 def _group_checks(checks: Sequence[Check]) -> list[list[Check]]:
-    """Return groups of checks that share cells, directly or through other checks; different groups are independent."""
-    groups: list[tuple[set[Cell], list[Check]]] = []
+    """Return the connected components of checks: checks of a group share cells, directly or through other checks.
+
+    Different groups are statistically independent.
+    """
+    groups: list[tuple[set[RunCell], list[Check]]] = []
     for check in checks:
         cells, group_checks = set(check.cells), [check]
         independent_groups = []

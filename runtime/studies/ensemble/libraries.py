@@ -1,4 +1,4 @@
-"""Own the compiled libraries of a study's scenes: compiled by two processes, loaded where the runs are computed."""
+"""Compile the libraries of a study's scenes by two processes, and load and cache them in worker processes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from gudgeon.integrators.threads import count_available_threads
 from gudgeon.loading.kernel_sources import find_mechanism, is_source_cached
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.workers import initialize_worker, list_law_files
+from gudgeon.studies.ensemble.workers import initialize_worker, list_registered_law_files
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import StudyFile
     from gudgeon.generator.yaml import Text
 
-FEWEST = 3  # libraries to make, from which on a second process pays: it begins with loading SymPy
-MOST = 64  # libraries that are left to it: more do not fit into its command line
+MIN_LIBRARIES_FOR_PROCESS = 3  # with fewer missing libraries, no second process is started: it must import SymPy first
+MAX_LIBRARIES_FOR_PROCESS = 64  # libraries of the second process, limited by the length of its command line
 COMPILE_CODE = f"from {__name__} import compile_listed_libraries as run; run()"
 
 
@@ -43,8 +43,8 @@ class Structure(NamedTuple):
 def find_study_mechanism(study: StudyFile) -> str:
     """Return the mechanism of a study: the name of a shipped one, or the absolute path of a file.
 
-    The file must lie in the folder of the study file or below. Raises an InputError at the mechanism's location in the
-    study file.
+    The file must lie in the folder of the study file or below; a study without a file, from a mapping, may name any
+    path. Raises an InputError at the location of `mechanism` in the study file.
     """
     name = str(study.mechanism)
     is_file = "/" in name or name.endswith((".yaml", ".yml"))
@@ -63,8 +63,9 @@ def find_study_mechanism(study: StudyFile) -> str:
 
 
 def iterate_structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
-    """Yield every scene with every combination of options: scene, overrides as texts with locations, and as sorted
-    pairs.
+    """Yield every structure of a study: each scene with each combination of options of its choices.
+
+    The items are the scene, its overrides {address: text with location}, and the overrides as sorted pairs of strings.
     """
     choices = [list(choice.options.values()) for choice in study.choices]
     for scene, selected in itertools.product(study.scenes, itertools.product(*choices)):
@@ -73,20 +74,20 @@ def iterate_structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text]
 
 
 def list_scenes_to_subtract(study: StudyFile) -> list[Text]:
-    """Return the scenes whose series measures of a study subtract, without repetitions."""
+    """Return the scenes whose series the measures of a study subtract (key `from`), without repetitions."""
     return list(dict.fromkeys(measure.origin for measure in study.measures if measure.origin is not None))
 
 
 def list_libraries(studies: Iterable[StudyFile]) -> list[Structure]:
-    """Return the libraries that `resolve` loads for these studies, in its order, without repetitions.
+    """Return the libraries that `resolve_study` loads for these studies, in that order, without repetitions.
 
-    A study with an unknown mechanism has none; its error is reported when it is resolved.
+    A study with an unknown mechanism has none; its error is reported by `resolve_study`.
     """
     libraries: dict[Structure, None] = {}
     for study in studies:
         try:
             mechanism = find_study_mechanism(study)
-        except InputError:  # reported when it is resolved
+        except InputError:  # reported by resolve_study
             continue
         for scene, _, overrides in iterate_structures(study):
             for name in (*list_scenes_to_subtract(study), scene):
@@ -96,11 +97,12 @@ def list_libraries(studies: Iterable[StudyFile]) -> list[Structure]:
 
 @contextmanager
 def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iterator[None]:
-    """Compile libraries in another process, from the last on, while the code in the context loads them from the first
+    """Compile libraries in a second process from the last one on, while the code in the context loads from the first
     on.
 
-    A process that needs a library that the other is compiling waits for it; they share only the cache. With few new
-    libraries, one core or no second process, nothing is started. The process is terminated at the end of the context.
+    The processes share the cache of libraries; one waits for a library that the other compiles. No process is started
+    for fewer than MIN_LIBRARIES_FOR_PROCESS missing libraries, or with one core. The process is terminated at the end
+    of the context.
     """
     missing = [
         structure
@@ -109,8 +111,8 @@ def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iter
     ]
     with Programs() as programs:
         process = None
-        if len(missing) >= FEWEST and count_available_threads() > 1:
-            arguments = json.dumps([list_law_files(), missing[: -MOST - 1 : -1]])
+        if len(missing) >= MIN_LIBRARIES_FOR_PROCESS and count_available_threads() > 1:
+            arguments = json.dumps([list_registered_law_files(), missing[: -MAX_LIBRARIES_FOR_PROCESS - 1 : -1]])
             try:
                 process = programs.start([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))
             except OSError:
@@ -124,11 +126,11 @@ def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iter
 
 
 def compile_listed_libraries() -> None:
-    """Compile the libraries that the command line lists, as the second process of a study.
+    """Compile the libraries in sys.argv[1] (JSON): main function of the second process of a study.
 
-    Errors are ignored, since the process that needs a library reports them. SIGTERM ends it.
+    Errors are ignored, since the first process reports them. SIGTERM ends the process and its compiler.
     """
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # compilers and folders of what is under way go with it
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # sys.exit ends compilers and removes temporary folders
     laws, structures = json.loads(sys.argv[1])
     initialize_worker(laws)
     try:
@@ -136,22 +138,22 @@ def compile_listed_libraries() -> None:
             with suppress(GudgeonError):
                 load(mechanism, scene, overrides=dict(overrides), quick=False)
     except SystemExit:
-        os._exit(1)  # Python takes .3 s to forget what SymPy made
+        os._exit(1)  # a regular exit takes 0.3 s to free the objects of SymPy
 
 
 @lru_cache(maxsize=16)
 def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
-    """Return the loaded library of a part in a worker process; the last 16 are cached.
+    """Load the library of a scene in a worker process and return its simulation; the last 16 are cached.
 
-    Raises InputError if the mechanism's file changed since the study began (sha256).
+    sha256: digest of all inputs when the study began. Raises InputError if the mechanism's file was edited since then.
     """
     simulation = load(mechanism, scene, overrides=dict(overrides), quick=False)
     if simulation.source.whole_sha256 != sha256:
         message = f"{mechanism} was edited after the study began"
-        raise InputError(message, hint="put it back as it was, or begin anew with --restart")
+        raise InputError(message, hint="restore the file, or start the study again with --restart")
     return simulation
 
 
 def choose_method(source: KernelSource, method: str) -> str:
-    """Return the method for a scene: "auto" for a kinematically driven one (dof = 0), else the requested one."""
+    """Return the method for a scene: "auto" for a kinematically driven one (dof = 0), else the method of the study."""
     return method if source.degrees_of_freedom else "auto"

@@ -1,4 +1,4 @@
-"""Compute one number for each run: statistics of series in a window, peaks over all steps, contacts, events."""
+"""Compute the measures of a study, one number for each run: statistics of series, peaks, contacts, events, wear."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gudgeon.results.batch import Array
 from gudgeon.results.series import check_series, get_catalogue
 from gudgeon.results.wear import SlidingRequest, compute_shortest_arc
 from gudgeon.simulation.examine import has_known_contact_force
-from gudgeon.studies.ensemble.exponents import KINDS_TOLD, NEIGHBOUR_STATISTICS
+from gudgeon.studies.ensemble.exponents import MOTION_CODES_TEXT, NEIGHBOUR_STATISTICS
 from gudgeon.studies.ensemble.parameter_values import ROUNDING
 
 if TYPE_CHECKING:
@@ -23,19 +23,19 @@ if TYPE_CHECKING:
 SubtractedSeries: TypeAlias = Mapping[
     str, Mapping[str, Array]
 ]  # scene -> series of runs, (n, N) each, at their own samples
-Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
+Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run; None: of the run
 
-STEPS: Mapping[str, str] = {
+STEP_STATISTICS: Mapping[str, str] = {
     "max_of_steps": "max",
     "min_of_steps": "min",
     "peak_of_steps": "abs",
     "deviation_of_steps": "abs",
 }
-JOINT: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
-CONTACTS, CROSSINGS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
-WEAR = ("wear_depth", "wear_arc")
-OF_JOINTS = (*CONTACTS, *JOINT, *WEAR)
-UNITS = {
+JOINT_PEAKS: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
+CONTACT_STATISTICS, CROSSING_STATISTICS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
+WEAR_STATISTICS = ("wear_depth", "wear_arc")
+JOINT_STATISTICS = (*CONTACT_STATISTICS, *JOINT_PEAKS, *WEAR_STATISTICS)
+STATISTIC_UNITS = {
     "impacts": "",
     "first_impact": "s",
     "impact_speed": "m/s",
@@ -51,64 +51,75 @@ UNITS = {
 def list_sampled_series(
     measures: tuple[Measure, ...], stored_names: tuple[str, ...], source: KernelSource
 ) -> list[str]:
-    """Return the names of the series of a scene whose samples are needed, for measures and for stored series.
+    """Return the series of a scene whose samples are needed: those of sample statistics, and the stored series.
 
-    Names that the scene lacks are left out; measures of contacts, events, steps and neighbours need no samples.
+    Names that the scene lacks are left out. Statistics of contacts, events, steps and neighbouring trajectories need no
+    samples.
     """
     catalogue = get_catalogue(source)
-    others = (*OF_JOINTS, *CROSSINGS, *STEPS, *NEIGHBOUR_STATISTICS)
+    others = (*JOINT_STATISTICS, *CROSSING_STATISTICS, *STEP_STATISTICS, *NEIGHBOUR_STATISTICS)
     expected = [*(str(measure.of) for measure in measures if measure.statistic not in others), *stored_names]
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
 
 def list_peak_series(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
-    """Return the names of the series of a scene whose peaks over all steps are measured.
+    """Return the series of a scene whose peaks over all steps are measured (STEP_STATISTICS).
 
-    Names that the scene lacks are left out, and deviations of the scene from itself, which are 0.
+    Names that the scene lacks, and deviations of the scene from itself, which are 0, are left out.
     """
     catalogue = get_catalogue(source)
     expected = (
-        str(measure.of) for measure in measures if measure.statistic in STEPS and measure.origin != source.scene
+        str(measure.of)
+        for measure in measures
+        if measure.statistic in STEP_STATISTICS and measure.origin != source.scene
     )
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
 
 def list_sliding_requests(measures: tuple[Measure, ...], source: KernelSource) -> tuple[SlidingRequest, ...]:
-    """Return the requests for sliding loads of the joints of a scene whose wear is measured, without repetitions."""
+    """Return the requests for the sliding loads ∫F|v_t|dt of the joints whose wear is measured, without repetitions.
+
+    Joints that the scene lacks, or whose wear cannot be measured, are left out.
+    """
     joints = _list_joints(source, with_wear=True)
-    expected = (str(measure.of) for measure in measures if measure.statistic in WEAR)
+    expected = (str(measure.of) for measure in measures if measure.statistic in WEAR_STATISTICS)
     return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in joints)
 
 
 def find_measure_unit(measure: Measure, source: KernelSource) -> str | None:
     """Return the SI unit of a measure in a scene; None if the scene lacks its joint, event or series.
 
-    Measures of neighbouring trajectories are lacking without degrees of freedom.
+    It is also None for a measure of neighbouring trajectories in a scene with dof = 0. "" for a pure number.
     """
-    if measure.statistic in OF_JOINTS:
-        return UNITS[measure.statistic] if measure.of in _list_joints(source, measure.statistic in WEAR) else None
-    if measure.statistic in CROSSINGS:
-        return UNITS[measure.statistic] if measure.of in _list_events(source) else None
+    if measure.statistic in JOINT_STATISTICS:
+        return (
+            STATISTIC_UNITS[measure.statistic]
+            if measure.of in _list_joints(source, measure.statistic in WEAR_STATISTICS)
+            else None
+        )
+    if measure.statistic in CROSSING_STATISTICS:
+        return STATISTIC_UNITS[measure.statistic] if measure.of in _list_events(source) else None
     if measure.statistic in NEIGHBOUR_STATISTICS:
         return NEIGHBOUR_STATISTICS[measure.statistic] if source.degrees_of_freedom > 0 else None
     return get_catalogue(source)[measure.of].unit if measure.of in get_catalogue(source) else None
 
 
 def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputError:
-    """Return the error for a measure whose joint, event or series no scene has, with the nearest names of this
-    scene.
+    """Return the error for a measure whose joint, event or series no scene of the study has.
+
+    Its hint has the nearest names in this scene. Call it only if `find_measure_unit` returns None for the scene.
     """
     from gudgeon.language.names import make_unknown_name_error
 
-    if measure.statistic in OF_JOINTS:
+    if measure.statistic in JOINT_STATISTICS:
         return make_unknown_name_error(
-            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR), measure.of.where
+            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR_STATISTICS), measure.of.where
         )
-    if measure.statistic in CROSSINGS:
+    if measure.statistic in CROSSING_STATISTICS:
         return make_unknown_name_error("event", measure.of, _list_events(source), measure.of.where)
     if measure.statistic in NEIGHBOUR_STATISTICS:
-        message = f"scene {source.scene} has no degree of freedom: no difference can grow"
-        return BadValueError(message, measure.of.where, "expected a scene whose drives do not decide all of the motion")
+        message = f"scene {source.scene} has no degree of freedom: perturbations cannot grow"
+        return BadValueError(message, measure.of.where, "expected a scene with at least one degree of freedom")
     try:
         check_series(source, [str(measure.of)])
     except UnknownNameError as error:
@@ -117,7 +128,7 @@ def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputE
 
 
 def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -> None:
-    """Raise UnknownNameError at the first measure whose series is missing in `source`, the subtracted scene.
+    """Raise UnknownNameError at the first measure that subtracts scene `source` but whose series that scene lacks.
 
     Measures that subtract another scene, or none, are not checked.
     """
@@ -131,7 +142,10 @@ def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -
 
 
 def _list_joints(source: KernelSource, with_wear: bool = False) -> list[str]:
-    """Return the names of the joints with play of a scene; with `with_wear` only those whose wear can be measured."""
+    """Return the names of the joints with play of a scene; with `with_wear` only those whose wear can be measured.
+
+    Those have a known contact force and are not corners of a guide.
+    """
     return [
         joint.name
         for joint in source.clearances
@@ -145,58 +159,58 @@ def _list_events(source: KernelSource) -> list[str]:
 
 
 def describe_measure(measure: Measure) -> str:
-    """Return a description of a measure: "peak of slider.ax in window last"."""
+    """Return a description of a measure, the long_name of its variable: "peak of slider.ax in window last"."""
     message = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
-    message = f"{message} ({KINDS_TOLD})" if measure.statistic == "motion" else message
+    message = f"{message} ({MOTION_CODES_TEXT})" if measure.statistic == "motion" else message
     message = f"{message} from scene {measure.origin}" if measure.origin is not None else message
     return f"{message} in window {measure.window}" if measure.window else message
 
 
 def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_series: SubtractedSeries) -> Array:
-    """Return the values of a measure for all runs of a batch, (n,); NaN for a run without one.
+    """Return the values of a measure for all runs of a batch, (n,); NaN for a run without a value.
 
-    spans: begin and end of each window. subtracted_series: series of other scenes to subtract. All values are NaN if
-    the scene lacks the measure's object, and for measures of neighbours, which are computed elsewhere.
+    spans: begin and end of each window. subtracted_series: series of other scenes, at the samples of the batch. All
+    values are NaN if the scene lacks the joint, event or series, and for statistics of neighbouring trajectories, which
+    `compute_neighbour_measures` computes.
     """
     source, missing_values = batch.source, np.full(len(batch), np.nan)
-    if (
-        find_measure_unit(measure, source) is None or measure.statistic in NEIGHBOUR_STATISTICS
-    ):  # which exponents.py has
+    if find_measure_unit(measure, source) is None or measure.statistic in NEIGHBOUR_STATISTICS:
         return missing_values
     begin, end = spans.get(measure.window, (None, None))
     begin = np.full(len(batch), -np.inf) if begin is None else begin
     end = np.full(len(batch), np.inf) if end is None else end
-    if measure.statistic in STEPS:
+    if measure.statistic in STEP_STATISTICS:
         return _read_step_peaks(batch, measure)
-    if measure.statistic in JOINT:
-        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _list_joints(source).index(measure.of)])
-    if measure.statistic in WEAR:
+    if measure.statistic in JOINT_PEAKS:
+        return np.asarray(batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints(source).index(measure.of)])
+    if measure.statistic in WEAR_STATISTICS:
         return _compute_bearing_wear(batch, measure)
-    if measure.statistic in CONTACTS:
+    if measure.statistic in CONTACT_STATISTICS:
         return _evaluate_contact_measure(batch, measure, begin, end)
-    if measure.statistic in CROSSINGS:
+    if measure.statistic in CROSSING_STATISTICS:
         return _evaluate_event_measure(batch, measure, begin, end)
     values = batch.kept[str(measure.of)]
     if measure.origin is not None:
         values = values - (values if measure.origin == source.scene else subtracted_series[measure.origin][measure.of])
-    return STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
+    return SAMPLE_STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
 
 
 def _read_step_peaks(batch: Batch, measure: Measure) -> Array:
-    """Return the peak of a series, or of its deviation from another scene, over all steps, (n,).
+    """Return the peak over all steps of a series, or of its deviation from another scene, for each run, (n,).
 
-    The deviation of a scene from itself is 0; NaN for runs without samples.
+    The deviation of a scene from itself is 0, or NaN for a run without samples.
     """
     if measure.origin is not None and measure.origin == batch.source.scene:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
     peaks = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
-    return np.asarray(getattr(peaks, STEPS[measure.statistic]))
+    return np.asarray(getattr(peaks, STEP_STATISTICS[measure.statistic]))
 
 
 def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
-    """Return the wear of a bearing for a unit wear coefficient, (n,): depth of the deepest cell, or worn arc (rad).
+    """Return wear_depth or wear_arc of a bearing for each run, (n,); NaN for a run without sliding loads of the joint.
 
-    NaN for a run without sliding loads of the joint.
+    The depth (N/m) is the maximum over the bearing's cells of ∫F|v_t|dt per area; the arc (rad) is the shortest one
+    with 90 % of the wear.
     """
     out = np.full(len(batch), np.nan)
     for i, loads_of_run in enumerate(batch.rubbed):
@@ -210,10 +224,10 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
 
 
 def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    """Return number, first time (s) or largest approach speed (m/s) of the contacts of a joint in each run's window,
-    (n,).
+    """Return the number, first onset (s) or largest approach speed (m/s) of the contacts of a joint for each run, (n,).
 
-    Runs without contact have 0 as number, else NaN.
+    Contacts count if their onset lies in the run's window, begin to end (s), (n,) each. A run without such a contact
+    has 0 as number, else NaN.
     """
     joint, is_count = _list_joints(batch.source).index(measure.of), measure.statistic == "impacts"
     out = _make_default_values(batch, is_count, begin)
@@ -230,7 +244,10 @@ def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end:
 
 
 def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    """Return number or first time (s) of an event in each run's window, (n,); without occurrence 0 or NaN."""
+    """Return the number or the first time (s) of a user-defined event in the window of each run, (n,).
+
+    begin, end: of the windows, s, (n,) each. A run without an occurrence has 0 as number, NaN as time.
+    """
     number, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
     out = _make_default_values(batch, is_count, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
@@ -244,21 +261,21 @@ def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: A
 
 
 def _make_default_values(batch: Batch, is_count: bool, begin: Array) -> Array:
-    """Return the default values of runs without a contact or event, (n,): 0 for counts, NaN for times.
+    """Return the values of runs without a contact or event, (n,): 0 for counts, NaN for times and speeds.
 
-    Runs that ended before the window have NaN, too.
+    A run that ended before the begin of its window (s) has NaN in any case.
     """
     reached_window = np.asarray(batch.t_last) * (1.0 + ROUNDING) >= begin
     return np.where(reached_window & is_count, 0.0, np.nan)
 
 
 def find_sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
-    """Return begin and end (s) of the interval in which samples of these runs are needed, (n,) each.
+    """Return begin and end (s) of the smallest interval with all windows in which samples are needed, (n,) each.
 
-    spans: begin and end of each window by its name. runs: indices (n,) of the runs in these. None if no measure needs
-    samples, or one needs the whole run.
+    spans: begin and end of each window by its name, for all runs of a job. runs: indices (n,) into these. None if no
+    measure needs samples, or one needs the whole run.
     """
-    windows = {measure.window for measure in measures if measure.statistic in STATISTICS}
+    windows = {measure.window for measure in measures if measure.statistic in SAMPLE_STATISTICS}
     if not (windows and all(windows)):
         return None
     ends = [spans[str(window)] for window in windows]
@@ -266,29 +283,35 @@ def find_sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array
     return begin, np.max([np.full(len(runs), np.inf) if end is None else end[runs] for _, end in ends], axis=0)
 
 
-def is_within(t: Array, begin: Array | float, end: Array | float) -> Array:
-    """Return a flag for each sample time whether it lies in [begin, end], with a relative tolerance for rounding."""
+def is_in_window(t: Array, begin: Array | float, end: Array | float) -> Array:
+    """Return a flag for each sample time: whether it lies in [begin, end], with the relative tolerance ROUNDING."""
     tolerance = ROUNDING * np.abs(t)
     return np.asarray((t >= begin - tolerance) & (t <= end + tolerance))
 
 
 def _is_in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return for each sample, (n, N), whether it lies in its run's window and its value is not NaN."""
+    """Return a flag for each sample, (n, N): whether it lies in its run's window and its value x is not NaN.
+
+    t, x: (n, N). begin, end (s): (n,).
+    """
     with np.errstate(invalid="ignore"):
-        return is_within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
+        return is_in_window(t, begin[:, None], end[:, None]) & ~np.isnan(x)
 
 
 def _make_extreme_statistic(
     reduce: Callable[..., Array], fill_value: float, transform: Callable[[Array], Array]
 ) -> Callable[..., Array]:
-    """Return a function of t, x, begin and end that reduces the samples of each run in its window, such as a maximum.
+    """Return the function statistic(t, x, begin, end) of an extreme, such as the maximum of |x| in each run's window.
 
-    reduce: reduction over an axis. fill_value: value in place of samples outside the window. transform: applied to the
-    samples first. The function returns NaN for a run without samples.
+    reduce: reduction over an axis, np.max or np.min. transform: applied to the samples x first. fill_value: neutral
+    value for samples outside the window.
     """
 
     def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
-        """Return the reduced value of each run, (n,); NaN for a run without samples in its window."""
+        """Return the extreme of each run, (n,); NaN for a run without samples in its window.
+
+        t, x: (n, N). begin, end (s): (n,).
+        """
         inside = _is_in_window(t, x, begin, end)
         values = reduce(np.where(inside, transform(x), fill_value), axis=1)
         return np.asarray(np.where(inside.any(axis=1), values, np.nan))
@@ -307,9 +330,9 @@ def _compute_range(t: Array, x: Array, begin: Array, end: Array) -> Array:
 
 
 def _compute_mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return the mean over time of each run in its window, (n,), by the trapezoidal rule.
+    """Return the mean over time of each run in its window, (n,), by the trapezoidal rule between samples in the window.
 
-    For a single sample it is its value, without samples NaN.
+    A single sample is the mean itself; NaN without samples.
     """
     inside = _is_in_window(t, x, begin, end)
     both = inside[:, 1:] & inside[:, :-1]
@@ -321,7 +344,7 @@ def _compute_mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
 
 
 def _compute_rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return the root mean square over time of each run in its window, (n,); NaN without samples."""
+    """Return the root mean square over time of each run in its window, (n,), as `_compute_mean` of x²."""
     return np.asarray(np.sqrt(_compute_mean(t, x * x, begin, end)))
 
 
@@ -332,7 +355,7 @@ def _find_final_sample(t: Array, x: Array, begin: Array, end: Array) -> Array:
     return np.asarray(np.where(inside.any(axis=1), x[np.arange(len(x)), last], np.nan))
 
 
-STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
+SAMPLE_STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
     "max": _compute_max,
     "min": _compute_min,
     "peak": _compute_peak,

@@ -1,4 +1,4 @@
-"""Own the texts that a study displays: titles of its quantities, values as the file writes them, descriptions."""
+"""Own the display texts of a study: titles of its quantities, values typeset as the file writes them, descriptions."""
 
 from __future__ import annotations
 
@@ -18,16 +18,18 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import ParameterValues
     from gudgeon.studies.ensemble.plan import Plans
 
-FILE = "names.json"
+NAMES_FILE = "names.json"
 _PI = re.compile(r"^([-+]?)(?:pi|π)(?=\s)")  # alone, without a number before it
 _QUANTITY = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[eE]([-+]?\d+))?\s*(\*\s*pi|\*?\s*π)?\s+([A-Za-zµΩ°][^\s()]*)")
-MAX_SPACED_VALUES, NOTHING = 1000, 1e-12  # values of which texts are made; of the largest one: so small a value is 0
+MAX_SPACED_VALUES = 1000  # values of a range for which texts are formatted
+ZERO_TOL = 1e-12  # values of a range below this fraction of the largest one are 0
 
 
 class Names(NamedTuple):
-    """Texts of a study: titles {name: title}; values {part: {coordinate: (text, …)}} of numbers with units in the file.
+    """Display texts of a study.
 
-    about: paragraphs on the whole study.
+    titles: {name: title}. values: {part: {coordinate: (text, …)}}, typeset numbers with units of the file. about:
+    paragraphs on the whole study.
     """
 
     titles: Mapping[str, str]
@@ -39,15 +41,18 @@ EMPTY_NAMES = Names({}, {})
 
 
 def _match_quantity(text: str) -> re.Match[str] | None:
-    """Return the match of a number with unit (groups: number, power of ten, π, unit), or None for another text.
+    """Return the match of a number with a unit (groups: number, exponent of ten, π, unit), or None for another text.
 
-    "pi rad/s" has the number 1.
+    "3*pi rad/s" gives ("3", None, "*pi", "rad/s"); "pi rad/s" has the number 1.
     """
     return _QUANTITY.fullmatch(_PI.sub(r"\g<1>1*pi", text.strip()))
 
 
 def typeset_quantity(text: str) -> str:
-    """Return a number with unit in typographic form: "3*pi rad/s" as "3π rad/s"; "" for any other text."""
+    """Return a number with a unit in typographic form: "3*pi rad/s" as "3π rad/s", "1e-6 m" as "10⁻⁶ m".
+
+    "" for any other text, such as an expression.
+    """
     match = _match_quantity(text)
     if match is None:
         return ""
@@ -64,10 +69,10 @@ def typeset_quantity(text: str) -> str:
 
 
 def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
-    """Return the texts of evenly (or geometrically) spaced values between two texts, in their common unit.
+    """Return the texts of the values of a range, evenly or geometrically spaced, in the common unit of its two ends.
 
-    The ends stay as written. Empty if the ends are no quantities in the same unit, or for more than MAX_SPACED_VALUES
-    values.
+    The ends are as in the file. Empty if the ends are not numbers with the same unit, or for more than
+    MAX_SPACED_VALUES values.
     """
     ends = [_match_quantity(text) for text in parameter_values.texts]
     units_of_ends = {(bool(end[3]), end[4]) for end in ends if end}
@@ -76,18 +81,18 @@ def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
     ((pi, unit),) = units_of_ends
     first, last = (float(f"{end[1]}e{end[2] or 0}") for end in ends if end)
     row = (np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace)(first, last, parameter_values.count)
-    row[np.abs(row) < NOTHING * np.abs(row).max()] = 0.0
+    row[np.abs(row) < ZERO_TOL * np.abs(row).max()] = 0.0
     between = (f"{value:.6g}{'*pi' if pi else ''} {unit}" for value in row[1:-1])
     return str(parameter_values.texts[0]), *between, str(parameter_values.texts[1])
 
 
-def collect_names(plans: Plans) -> Names:
-    """Return the titles, value texts and paragraphs that reports of a study file display.
+def collect_display_names(plans: Plans) -> Names:
+    """Return the titles, typeset values and paragraphs of a study file, for the report.
 
     A coordinate has texts only if the file writes all its values as numbers with units.
     """
     values: dict[str, dict[str, tuple[str, ...]]] = {}
-    for part, plan in plans.each.items():
+    for part, plan in plans.by_part.items():
         every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
             every |= {
@@ -101,19 +106,19 @@ def collect_names(plans: Plans) -> Names:
     return Names(plans.file.titles, values, plans.file.about)
 
 
-def write_names(folder: Path, plans: Plans) -> None:
-    """Write titles and value texts as names.json into the folder of a study; they do not affect the runs.
+def write_display_names(folder: Path, plans: Plans) -> None:
+    """Write the display texts of a study as names.json into its folder; they do not affect the runs.
 
-    Raises OutputError.
+    An existing file is replaced. Raises OutputError.
     """
-    with open_atomic(folder / FILE) as file:
-        file.write(json.dumps(collect_names(plans)._asdict(), indent=1, ensure_ascii=False).encode())
+    with open_atomic(folder / NAMES_FILE) as file:
+        file.write(json.dumps(collect_display_names(plans)._asdict(), indent=1, ensure_ascii=False).encode())
 
 
-def read_names(folder: Path) -> Names:
-    """Return the titles and value texts of a study's folder; all are empty if names.json is missing or damaged."""
+def read_display_names(folder: Path) -> Names:
+    """Return the display texts from the folder of a study; all are empty if names.json is missing or damaged."""
     try:
-        data = read_regular_file(folder / FILE)
+        data = read_regular_file(folder / NAMES_FILE)
         document = {} if data is None else json.loads(data)
         titles = {str(name): str(title) for name, title in document.get("titles", {}).items()}
         values = {

@@ -1,4 +1,4 @@
-"""Collect the notes of a study's runs: each kind once, with the number of runs and an example."""
+"""Aggregate the notes (warnings) of a study's runs: each kind once, with the number of runs and an example."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ if TYPE_CHECKING:
 
     from gudgeon.contract.kernel_source import KernelSource
 
-# not the digits of a name or of a unit: S9, m/s^2, 1/s
+# numbers, but not the digits of a name or of a unit: S9, m/s^2, 1/s
 _NUMBER = re.compile(r"(?<![\w.^])(?<!\^-)(?!1/[^\W\d_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-_WITH = re.compile(r" with [\w.]+ = [^:]*(?=:)")  # the numbers of one run
-MAX_NOTES = 50  # kinds that are reported
+_WITH = re.compile(r" with [\w.]+ = [^:]*(?=:)")  # parameter values of one run
+MAX_NOTES = 50  # kinds of notes that are reported
 
 
 @dataclass(frozen=True)
 class Note:
-    """A kind of note: number of runs that have it, the first of them in the study, and its text."""
+    """A kind of note: number of runs that have it, index of the first of them in the study, and its text there."""
 
     runs: int
     run: int
@@ -37,26 +37,25 @@ class Note:
 
 
 def get_message_kind(message: str) -> str:
-    """Return the kind of a message: its first line without numbers, by which equal notes of many runs are
-    recognised.
+    """Return the kind of a message, the key by which equal messages of many runs are grouped.
+
+    It is the first line, with "…" for numbers, without parameter values, and at most 200 characters long.
     """
     return _NUMBER.sub("…", _WITH.sub("", message.partition("\n")[0]))[:200]
 
 
 def group_notes(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
-    """Return the notes of runs by kind, from pairs (run, texts); each kind with the number of its runs and the first
-    one.
+    """Return the notes by kind, from pairs (run, texts): number of runs, and the first run with its text.
 
-    Notes on choices are left out, since coordinates show them.
+    Notes on choices by name are left out, since the coordinates of the dataset have them. A run that has two notes of
+    one kind counts twice.
     """
     noted = ((run, text) for run, texts in texts_by_run for text in texts if not is_choice_note(text))
     return merge_notes({get_message_kind(text): Note(1, run, text)} for run, text in noted)
 
 
 def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
-    """Return the notes of several groups of runs as one table by kind; counts add up, and the first run stays the
-    example.
-    """
+    """Return the notes of several groups of runs as one table by kind: counts add up, the first run is the example."""
     merged_notes: dict[str, Note] = {}
     for kind, note in (item for table in note_tables for item in table.items()):
         before = merged_notes.get(kind)
@@ -67,10 +66,11 @@ def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
 
 @contextmanager
 def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[str, Note]]:
-    """Yield a table that is filled at the end of the context with notes on runs that do not start near their guesses.
+    """Collect the warnings about assembled starts that deviate from their guesses, in place of a warning for each
+    block.
 
-    This replaces a warning for each block. first_run: number of the first run of the block, which notes give as
-    example.
+    It yields an empty table, which is filled at the end of the context: a note for each coordinate. first_run: index of
+    the first run of the block, which is the example of the notes.
     """
     noted: list[Mapping[str, float]] = []
     notes: dict[str, Note] = {}

@@ -1,4 +1,4 @@
-"""Compute the series to subtract from those of a study's runs: another scene at the same parameters and times."""
+"""Compute the reference series that deviations subtract: another scene with the same parameters and sample times."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from gudgeon.results.results import make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import choose_method, load_library
-from gudgeon.studies.ensemble.measures import STEPS
+from gudgeon.studies.ensemble.measures import STEP_STATISTICS
 from gudgeon.studies.ensemble.parameter_values import find_parameter_key
 
 if TYPE_CHECKING:
@@ -32,11 +32,14 @@ if TYPE_CHECKING:
     from gudgeon.results.batch import Batch
     from gudgeon.studies.ensemble.block import Job, RunTable
 
-MAX_CACHE_BYTES = 1 << 26  # bytes of series in the cache, which next blocks of a process may need
+MAX_CACHE_BYTES = 1 << 26  # maximum size of the cache of series, which later blocks of a process may need
 
 
 def list_subtracted_scenes(measures: Iterable[Measure], excluded_scene: str = "") -> tuple[str, ...]:
-    """Return the scenes whose series measures subtract, without repetitions and without `excluded_scene` itself."""
+    """Return the scenes whose series these measures subtract (key `from`), without repetitions.
+
+    excluded_scene: a scene that is left out, such as the measured scene itself.
+    """
     return tuple(
         dict.fromkeys(
             str(measure.origin)
@@ -47,23 +50,26 @@ def list_subtracted_scenes(measures: Iterable[Measure], excluded_scene: str = ""
 
 
 def find_scene_subtracted_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
-    """Return the scene that measures over all steps subtract in scene `source`; "" if there is none."""
+    """Return the scene that measures over all steps (`deviation_of_steps`) subtract in scene `source`; "" for none.
+
+    A study has at most one such scene.
+    """
     step_measures = (
-        measure for measure in measures if measure.statistic in STEPS and measure.of in get_catalogue(source)
+        measure for measure in measures if measure.statistic in STEP_STATISTICS and measure.of in get_catalogue(source)
     )
     return next(iter(list_subtracted_scenes(step_measures, source.scene)), "")
 
 
 def load_subtracted_scene(job: Job, scene: str) -> Simulation:
-    """Return the loaded library of another scene with the mechanism and overrides of a job."""
+    """Load the library of another scene with the mechanism and overrides of a job, and return its simulation."""
     return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
 
 def find_passive_parameters(source: KernelSource) -> Array:
-    """Return a flag for each entry of p, (n_p,): whether it is a parameter that does not affect the motion.
+    """Return a flag for each entry of the parameter vector p, (n_p,): whether it does not affect the motion.
 
-    Such parameters occur in no expression of t or of the motion. Lengths or masses that depend on them are entries of
-    p themselves.
+    Such an entry is a named parameter that no expression of time, of the motion or of an output contains. Quantities
+    that depend on it, such as lengths, are entries of p themselves, so their own flags are False.
     """
     trees = [json.loads(expression.tree) for expression in source.written] + list(source.outputs.values())
     read = {
@@ -79,60 +85,62 @@ def find_passive_parameters(source: KernelSource) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class RunKeys:
-    """Runs of another scene with keys by which equal runs are recognised."""
+    """Runs of another scene with keys by which equal runs are recognised (memoization)."""
 
-    columns: Mapping[str, Array]  # its own numbers, (n,)
+    columns: Mapping[str, Array]  # parameters of the other scene, (n,)
     full_p: Array  # (n, n_p)
-    p: Array  # the same with 0 for parameters that do not affect the motion
-    t: tuple[Array, ...]  # samples of each
+    p: Array  # full_p with 0 for parameters that do not affect the motion
+    t: tuple[Array, ...]  # sample times of each run
     step: Array | None
 
     def build_key(self, i: int) -> tuple[bytes, bytes, float]:
-        """Return the key of run i, from its parameters, sample times and step; equal runs have equal keys."""
+        """Return the hashable key of run i: bytes of its parameters and sample times, and its step (0 without one)."""
         return self.p[i].tobytes(), self.t[i].tobytes(), 0.0 if self.step is None else float(self.step[i])
 
 
 class SeriesCache:
-    """Cache of the most recently used series, with a limit of bytes."""
+    """Thread-safe LRU cache of the series of runs, limited to MAX_CACHE_BYTES."""
 
     def __init__(self) -> None:
         """Create an empty cache with its lock."""
-        self._held: OrderedDict[Any, Mapping[str, Array]] = OrderedDict()
+        self._cached: OrderedDict[Any, Mapping[str, Array]] = OrderedDict()
         self._bytes, self._lock = 0, Lock()
 
     def get(self, key: Any) -> Mapping[str, Array] | None:
         """Return the series of a key and mark them as most recently used; None if they are not in the cache."""
         with self._lock:
-            if key in self._held:
-                self._held.move_to_end(key)
-            return self._held.get(key)
+            if key in self._cached:
+                self._cached.move_to_end(key)
+            return self._cached.get(key)
 
     def put(self, key: Any, series: Mapping[str, Array]) -> None:
         """Store the series of a key, and remove the least recently used ones beyond MAX_CACHE_BYTES bytes; an existing
         key is left as it is.
         """
         with self._lock:
-            if key in self._held:
+            if key in self._cached:
                 return
-            self._held[key] = series
+            self._cached[key] = series
             self._bytes += sum(array.nbytes for array in series.values())
             while self._bytes > MAX_CACHE_BYTES:
-                self._bytes -= sum(array.nbytes for array in self._held.popitem(last=False)[1].values())
+                self._bytes -= sum(array.nbytes for array in self._cached.popitem(last=False)[1].values())
 
 
-_recent, _making = SeriesCache(), Lock()
+_recent, _computing = SeriesCache(), Lock()
 
 
 def compute_subtracted_series(
     job: Job, table: RunTable, runs: Array, batch: Batch, failures: list[str]
 ) -> dict[str, dict[str, Array]]:
-    """Return for each scene to subtract its series at the samples of these runs, (n, N) by name, NaN where missing.
+    """Run the scenes that measures subtract, and return their series at the samples of a batch: {scene: {name: (n,
+    N)}}.
 
-    runs: indices of the batch's runs in the job. A run whose parameters the other scene cannot use is entered in
-    `failures`.
+    runs: indices of the batch's runs in the job. Values are NaN where the batch has no sample. A run that fails in the
+    other scene, or has parameters that are invalid there, is entered in `failures`. Measures over all steps are left
+    out, since the batch itself runs their scene.
     """
     series_by_scene: dict[str, dict[str, Array]] = {}
-    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEPS]
+    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
     for scene in list_subtracted_scenes(expected, batch.source.scene):
         simulation = load_subtracted_scene(job, scene)
         common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()
@@ -151,8 +159,9 @@ def _compute_series_at_samples(
 ) -> dict[str, Array]:
     """Return the series `names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
 
-    Equal runs are computed once, and the most recent series come from a cache. Kinematically driven scenes are
-    computed from the motion alone, others are simulated. Failures of runs are entered in `failures`.
+    Equal runs are computed once, and series are taken from a cache of the process if possible. Kinematically driven
+    scenes are evaluated from the motion alone, others, and those that fail, are simulated. Failures are entered in
+    `failures`; runs that failed before are left out.
     """
     times = batch.kept["t"]
     out = {name: np.full(times.shape, np.nan) for name in names}
@@ -168,7 +177,7 @@ def _compute_series_at_samples(
         tuple(names),
     )
     keys = [(common_key, run_keys.build_key(i)) for i in range(len(runs))]
-    with _making:  # another block in another thread may be about to need the same ones
+    with _computing:  # a block in another thread may need the same series
         cached = {keys[i]: _recent.get(keys[i]) for i in valid_runs}
         missing = [i for i in {keys[i]: i for i in reversed(valid_runs)}.values() if cached[keys[i]] is None]
         computed = _compute_kinematic_series(job, simulation, run_keys, sorted(missing), names)
@@ -188,8 +197,10 @@ def _compute_series_at_samples(
 
 
 def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunKeys:
-    """Return the runs of another scene with the parameters of these runs and the sample times `times`, one array
+    """Return these runs of a job as runs of another scene (`simulation`), with the sample times `times`, one array
     each.
+
+    runs: indices in the job. Parameters that the other scene lacks are left out.
     """
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := find_parameter_key(source, name))}
@@ -201,17 +212,17 @@ def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times:
 
 
 def _to_python_value(value: Any) -> float | str:
-    """Return a Python float or text from an entry of an array."""
+    """Return an entry of an array of parameter values as a Python float; a text unchanged."""
     return value if isinstance(value, str) else float(value)
 
 
 def _compute_kinematic_series(
     job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], series_names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Return the series of kinematically driven runs from their motion alone, by run; runs that fail are left out.
+    """Return the series of kinematically driven runs by run, evaluated from the motion alone without a simulation.
 
-    Empty for a scene with degrees of freedom. A whole run would spend two thirds of its time on works for an energy
-    balance that is not used.
+    Runs that fail are left out, and are simulated for their reason. Empty for a scene with degrees of freedom. A
+    simulation would spend two thirds of its time on the energy balance, which is not used.
     """
     source, compiled, parts = (
         simulation.source,
@@ -222,7 +233,11 @@ def _compute_kinematic_series(
         return {}
 
     def compute_series(i: int) -> Mapping[str, Array] | None:
-        """Return the series of run i; None if they cannot be computed from the motion alone or are not finite."""
+        """Return the series of run i at its sample times; None if the motion cannot be computed or a value is not
+        finite.
+
+        The first sample time must be 0, else the result is None.
+        """
         t, p = run_keys.t[i], run_keys.full_p[i]
         try:
             start = assemble_start(compiled, p)
@@ -234,7 +249,7 @@ def _compute_kinematic_series(
             series_by_run = (
                 {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}
             )
-        except GudgeonError:  # a simulation reports the reason
+        except GudgeonError:  # the simulation of the run reports the reason
             return None
         return (
             series_by_run
@@ -250,9 +265,10 @@ def _compute_kinematic_series(
 def _simulate_series(
     job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Return the series of each run from a simulation, by run, or the reason (a text) why there are none.
+    """Simulate runs of another scene as one batch, and return by run the series, or the reason (a text) of a failure.
 
-    If the batch is refused, each run is simulated alone. Raises KeyboardInterrupt if Ctrl-C ended a run.
+    If the parameters of a run are invalid, each run is simulated alone to find it. Raises KeyboardInterrupt if Ctrl-C
+    ended a run.
     """
     if not runs:
         return {}

@@ -1,4 +1,4 @@
-"""Convert texts of a study file to parameter values in SI, with locations for errors, and evaluate its expressions."""
+"""Convert texts of a study file to parameter values in SI, and check and evaluate its expressions for all runs."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ ROUNDING = 1e-12  # relative tolerance of times at the ends of a window
 def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
     """Return the parameter of a scene with this address, short name or group name; None if the scene lacks it.
 
-    Of a group it is the first member.
+    "c" is short for "parameters.c". Of a group (PARAMETER_GROUPS) it is the first member that the scene has.
     """
     by_address = {parameter.address: parameter for parameter in source.slots}
     called = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
@@ -39,8 +39,9 @@ def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
 
 
 def find_parameter_key(source: KernelSource, name: str) -> str:
-    """Return the name by which runs of a scene are given a parameter: a group name or an address; "" if the scene
-    lacks it.
+    """Return the key by which `simulate` sets a parameter: the name of a group, or the full address.
+
+    "c" becomes "parameters.c". "" if the scene lacks the parameter.
     """
     parameter = find_parameter(source, name)
     return (
@@ -53,8 +54,9 @@ def find_parameter_key(source: KernelSource, name: str) -> str:
 
 
 def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> RuntimeParameter:
-    """Return the parameter of a name in the first of several scenes that has it. Raises UnknownNameError at the
-    name.
+    """Return the parameter with this name from the first of several scenes that has it.
+
+    Raises UnknownNameError at the name if no scene has it, with the nearest address.
     """
     for source in sources:
         if (parameter := find_parameter(source, name)) is not None:
@@ -67,11 +69,12 @@ def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> Run
     except InputError as error:
         if "has the address" not in error.message:
             raise type(error)(error.message, name.where, error.hint) from None
-    raise make_unknown_name_error("number", name, every, name.where)
+    raise make_unknown_name_error("parameter", name, every, name.where)
 
 
 def parse_parameter_value(text: Text, parameter: RuntimeParameter) -> float | str:
-    """Return the value of a text for a parameter in SI, or the stripped text for a choice.
+    """Return the value in SI of a text such as "0.3 mm" for a parameter; for a choice by name the text itself,
+    stripped.
 
     Raises an InputError at the text for an unknown word, a wrong dimension, a name in the expression, or a value that
     is not finite.
@@ -84,9 +87,9 @@ def parse_parameter_value(text: Text, parameter: RuntimeParameter) -> float | st
         return text.strip()
     expr = parse(insert_space_before_unit(text), text.where)
     if (name := next(iterate_names(expr), None)) is not None:
-        hint = "expected a number with its unit; what follows other numbers is written in the mechanism's file"
+        hint = "expected a number with its unit; expressions of parameters are possible in the mechanism's file"
         raise BadValueError(
-            f"{name.path!r} stands in a number of a study", offset_location(text.where, name.offset), hint
+            f"the name {name.path!r} in a value of a study", offset_location(text.where, name.offset), hint
         )
     check_dimension(expr, make_dimension(*parameter.dimension), lambda path: None, text.where)
     value = float(evaluate(expr, lambda path: None))
@@ -96,20 +99,23 @@ def parse_parameter_value(text: Text, parameter: RuntimeParameter) -> float | st
 
 
 def parse_real_value(text: Text, parameter: RuntimeParameter) -> float:
-    """Return the value in SI of a text for a parameter. Raises BadValueError at the text if it is a choice."""
+    """Return the value in SI of a text for a numeric parameter.
+
+    Raises BadValueError at the text if the parameter is a choice by name, and the errors of `parse_parameter_value`.
+    """
     value = parse_parameter_value(text, parameter)
     if isinstance(value, str):
-        hint = "list the names that it takes, under parameters:"
-        raise BadValueError(f"{parameter.address} is a choice by name, there is nothing between", text.where, hint)
+        hint = "list its names under parameters:"
+        raise BadValueError(f"{parameter.address} is a choice by name: it has no range", text.where, hint)
     return value
 
 
 def parse_dimension_values(parameter_values: ParameterValues, parameter: RuntimeParameter, may_repeat: bool) -> Array:
-    """Return all values of a dimension, (n,), in SI or as words: a list of texts, or a count of spaced values between
-    two.
+    """Return all values of a parameter along a dimension, (n,), in SI or as words of a choice.
 
-    may_repeat: whether listed values may be equal. Raises an InputError at the text for equal ends, repeated values,
-    or ends of different sign with geometric spacing.
+    parameter_values: a list of texts, or two ends with a count (a range, linear or geometric). may_repeat: whether
+    listed values may be equal. Raises an InputError at the text for equal ends, repeated values, ends of different sign
+    with geometric spacing, or values that are not finite.
     """
     if not parameter_values.count:
         values = [parse_parameter_value(text, parameter) for text in parameter_values.texts]
@@ -117,23 +123,28 @@ def parse_dimension_values(parameter_values: ParameterValues, parameter: Runtime
         repeated = next((k for k, value in enumerate(values) if first_of[value] < k and not may_repeat), None)
         if repeated is not None:
             text = parameter_values.texts[repeated]
-            raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
+            raise BadValueError(f"the value {str(text)[:60]!r} is repeated", text.where, "expected each value once")
         return np.array(values, dtype=object if parameter.words else float)
     first, last = (parse_real_value(text, parameter) for text in parameter_values.texts)
     if parameter_values.spacing == GEOMETRIC and not first * last > 0.0:
-        message = f"a geometric row from {first:g} to {last:g}"
+        message = f"a geometric range from {first:g} to {last:g}"
         raise BadValueError(message, parameter_values.texts[0].where, "expected both ends positive, or both negative")
     if first == last:
-        raise BadValueError(f"a row from {first:g} to {last:g}", parameter_values.texts[1].where, "expected two ends")
+        raise BadValueError(
+            f"a range from {first:g} to {last:g}", parameter_values.texts[1].where, "expected two different ends"
+        )
     spaced_values = np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace
     with np.errstate(over="ignore", invalid="ignore"):
-        return check_finite(np.asarray(spaced_values(first, last, parameter_values.count)), parameter_values.texts[1])
+        return check_finite_values(
+            np.asarray(spaced_values(first, last, parameter_values.count)), parameter_values.texts[1]
+        )
 
 
-def check_finite(values: Array, text: Text) -> Array:
-    """Return the array `values` unchanged. Raises BadValueError at `text` unless all values are finite."""
+def check_finite_values(values: Array, text: Text) -> Array:
+    """Return the array `values` unchanged; raise BadValueError at `text` if any value is not finite (overflow)."""
     if not np.isfinite(values).all():
-        raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
+        message = "values of the range exceed the largest floating-point number"
+        raise BadValueError(message, text.where, "expected ends of smaller magnitude")
     return values
 
 
@@ -143,10 +154,10 @@ def check_expression(
     expected_dimension: Dimension,
     extra_dimensions: Mapping[str, Dimension],
 ) -> None:
-    """Raise an InputError at its location for an expression of a study with another dimension than expected.
+    """Raise an InputError at its location for an expression of a study with a wrong dimension or an invalid name.
 
-    extra_dimensions: names besides parameters of the scene, such as t_end, with their dimensions. Unknown names,
-    choices and units that are also parameters are refused, too.
+    extra_dimensions: further names that are allowed, such as t_end, with their dimensions. Invalid are unknown names,
+    choices by name, and units that are also names of parameters.
     """
 
     def find_dimension(path: str) -> Dimension | None:
@@ -169,19 +180,17 @@ def check_expression(
 
 
 def _check_ambiguous_units(expression: ParsedExpression, known_names: Sequence[str]) -> None:
-    """Raise ExpressionError for a unit in a product that is also the name of a parameter: `2 rad/s` with a parameter
-    s.
-    """
+    """Raise ExpressionError for a unit of an expression that is also a parameter: "2 rad/s" with a parameter s."""
     text, by_name = expression.text, parse(expression.text, expression.text.where, known_names)
     for name in find_unit_shadowing_names(by_name) if by_name != expression.expr else ():
-        message = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
-        raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the number")
+        message = f"{str(text)!r} can mean two things: {name} is a unit, and a parameter of the scene"
+        raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the parameter")
 
 
 def evaluate_constant(expression: ParsedExpression | None, known_values: Mapping[str, float]) -> float | None:
-    """Return the value of an expression that is the same in all runs; None for None or an unknown name in it.
+    """Return the value of an expression that is the same in all runs; None if it depends on a name without a value.
 
-    known_values: values of names, such as t_end.
+    known_values: values of names, such as t_end. None for the expression None.
     """
     if expression is None or any(name.path not in known_values for name in iterate_names(expression.expr)):
         return None
@@ -189,9 +198,9 @@ def evaluate_constant(expression: ParsedExpression | None, known_values: Mapping
 
 
 def find_impossible_values(name: str, values: Array) -> tuple[Array, str]:
-    """Return a flag for each value that no run can have, and a text of what is expected.
+    """Return a flag for each value that is outside the range of a setting, and a text with the expected range.
 
-    name: of the quantity: t_end, step, or output (rounded values).
+    name: of the setting, "t_end", "step" or "output". The values of output must be rounded.
     """
     if name == "output":
         expected = f"a number of intervals from 1 to {MAX_OUTPUT:.0e}"
@@ -200,9 +209,9 @@ def find_impossible_values(name: str, values: Array) -> tuple[Array, str]:
 
 
 def check_constant_settings(study: StudyFile) -> None:
-    """Raise BadValueError at its location for an end, output, step or window of a study that no run can have.
+    """Raise BadValueError at its location for an impossible t_end, output, step or window that is the same in all runs.
 
-    Only expressions that are the same in all runs are checked here.
+    Expressions that depend on parameters are checked for each run later.
     """
     constants: dict[str, float] = {}
     for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
@@ -218,7 +227,7 @@ def check_constant_settings(study: StudyFile) -> None:
         begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
         if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
             limit = window.begin or window.end
-            message = f"window {name} goes from {begin:g} s to {end:g} s"
+            message = f"window {name} is from {begin:g} s to {end:g} s"
             raise BadValueError(
                 message, limit.text.where if limit else None, f"expected a part of the run, to {last:g} s"
             )
@@ -227,8 +236,7 @@ def check_constant_settings(study: StudyFile) -> None:
 def evaluate_expression_for_runs(source: KernelSource, expr: Expr, p: Array, extra_values: Mapping[str, Any]) -> Array:
     """Return the values of an expression for all runs, (n,), from their parameter vectors p (n, n_p).
 
-    extra_values: values of further names, scalar or (n,). Values are NaN or infinite where the expression is
-    undefined.
+    extra_values: values of further names, scalar or (n,). A value is NaN or infinite where the expression is undefined.
     """
     index_of_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
 

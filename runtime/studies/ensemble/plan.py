@@ -1,4 +1,4 @@
-"""Own the plan of a study: the table of its runs over the varied parameters, in blocks for single processes."""
+"""Own the plan of a study (design of experiments): its runs over the varied parameters, in blocks of one process."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.claims import ResolvedClaims
 
 FOLDER_FORMAT = "gudgeon-study-folder/1"
-MOST_RUNS, MOST_STRUCTURES = 100_000_000, 10_000
+MAX_RUNS, MAX_STRUCTURES = 100_000_000, 10_000
 
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """A coordinate: values over some dimensions of the study, SI, or names."""
+    """A coordinate of the dataset: values (SI or words) over the dimensions `over` of the study; () for a scalar."""
 
     name: str
     over: tuple[str, ...]
@@ -37,8 +37,8 @@ class Coordinate:
 
 
 @dataclass(frozen=True, eq=False)
-class Dimension:
-    """A dimension of a study: the parameters that vary along it by address, (length,) each."""
+class StudyDimension:
+    """A dimension of a study, with the values (length,) of each parameter that varies along it, by name."""
 
     name: str
     length: int
@@ -47,7 +47,7 @@ class Dimension:
 
 @dataclass(frozen=True, eq=False)
 class Deviations:
-    """Deviations of perturbed starts: relative and absolute (SI), (n_ensembles, n_starts) each."""
+    """Deviations of perturbed starts by parameter: relative and absolute (SI), (n_ensembles, n_starts) each."""
 
     relative: dict[str, Array]
     absolute: dict[str, Array]
@@ -55,14 +55,14 @@ class Deviations:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Runs of one scene with one structure, hence of one library."""
+    """Runs of one scene with one option of each choice of structure, which share one compiled library."""
 
     simulation: Simulation
     mechanism: str
     overrides: tuple[tuple[str, str], ...]
-    block: int = 1  # runs a block
-    samples: float = 1.0  # of a run on average, by those that were looked at
-    most: float = 1.0  # of the one of these that has most
+    block_runs: int = 1  # runs of a block
+    mean_samples: float = 1.0  # of a run, estimated from some of the runs
+    max_samples: float = 1.0  # of a run, estimated from the same runs
 
     @property
     def sha256(self) -> str:
@@ -71,21 +71,24 @@ class Part:
 
 
 class BlockRange(NamedTuple):
-    """The runs of a block: a range of the runs of a part."""
+    """The runs of a block: a range of the runs of a part (library)."""
 
     number: int
-    part: int
-    first: int  # run of the part
-    runs: int  # how many
+    part: int  # index of the part
+    first_run: int  # index in the part
+    runs: int  # number of runs
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A study with resolved names; dimensions of structure come first, then those of parameters."""
+    """A study with resolved names: its runs are all combinations of its dimensions, in C order.
+
+    Dimensions of structure (scenes and choices) are first, then those of parameters and starts.
+    """
 
     study: StudyFile
-    structure: tuple[Dimension, ...]
-    numbers: tuple[Dimension, ...]
+    structure_dimensions: tuple[StudyDimension, ...]
+    parameter_dimensions: tuple[StudyDimension, ...]
     fixed: Mapping[str, float | str]
     deviations: Deviations | None
     coordinates: tuple[Coordinate, ...]
@@ -97,58 +100,60 @@ class Plan:
     @property
     def shape(self) -> tuple[int, ...]:
         """Return the lengths of all dimensions, those of structure first."""
-        return tuple(coordinate.length for coordinate in (*self.structure, *self.numbers))
+        return tuple(dimension.length for dimension in (*self.structure_dimensions, *self.parameter_dimensions))
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Return the names of all dimensions, those of structure first."""
-        return tuple(coordinate.name for coordinate in (*self.structure, *self.numbers))
+        return tuple(dimension.name for dimension in (*self.structure_dimensions, *self.parameter_dimensions))
 
     @property
-    def each(self) -> int:
+    def runs_per_part(self) -> int:
         """Return the number of runs of each part."""
-        return math.prod(coordinate.length for coordinate in self.numbers)
+        return math.prod(coordinate.length for coordinate in self.parameter_dimensions)
 
     @property
     def runs(self) -> int:
         """Return the number of runs of all parts."""
-        return self.each * len(self.parts)
+        return self.runs_per_part * len(self.parts)
 
     @property
-    def count_of_blocks(self) -> int:
-        """Return the number of blocks of all parts, computed without a list of them."""
-        return sum(-(-self.each // part.block) for part in self.parts)
+    def n_blocks(self) -> int:
+        """Return the number of blocks of all parts."""
+        return sum(-(-self.runs_per_part // part.block_runs) for part in self.parts)
 
     @cached_property
     def blocks(self) -> tuple[BlockRange, ...]:
         """Return all blocks, part by part, each with its range of runs."""
-        each = self.each
+        n_runs = self.runs_per_part
         ranges = (
-            (k, first, min(part.block, each - first))
+            (k, first, min(part.block_runs, n_runs - first))
             for k, part in enumerate(self.parts)
-            for first in range(0, each, part.block)
+            for first in range(0, n_runs, part.block_runs)
         )
         return tuple(BlockRange(number, *range_) for number, range_ in enumerate(ranges))
 
     def make_block_job(self, block: BlockRange, threads: int | None) -> Job:
-        """Return the job of a block, which contains all that a process needs to run it; `threads` as in `study`."""
-        runs = np.arange(block.first, block.first + block.runs)
-        return self.make_job(block.number, block.part, runs, threads, self.each - block.first - block.runs)
+        """Return the job of a block, a picklable description of its runs for a worker; `threads` as in `study`."""
+        runs = np.arange(block.first_run, block.first_run + block.runs)
+        return self.make_job(block.number, block.part, runs, threads, self.runs_per_part - block.first_run - block.runs)
 
     def make_job(
         self, block_number: int, part_index: int, runs: Array, threads: int | None, n_later_runs: int = 0
     ) -> Job:
-        """Return the job of any runs of part k with their parameters and deviations.
+        """Return the job of arbitrary runs of a part, with their parameters and deviations, (n_runs,) each.
 
-        block_number: of the block. runs: indices in the part. threads: None for the number of cores. n_later_runs:
-        number of runs of the part in later blocks.
+        runs: indices in the part, ascending. threads: None for the number of cores. n_later_runs: number of runs of the
+        part in later blocks. It is called for blocks and for trial runs.
         """
-        part, shape = self.parts[part_index], tuple(coordinate.length for coordinate in self.numbers)
+        part, shape = self.parts[part_index], tuple(coordinate.length for coordinate in self.parameter_dimensions)
         index = np.unravel_index(runs, shape) if shape else ()
         columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
-        for coordinate, indices in zip(self.numbers, index, strict=True):
+        for coordinate, indices in zip(self.parameter_dimensions, index, strict=True):
             columns |= {name: values[indices] for name, values in coordinate.columns.items()}
-        by_name = {coordinate.name: indices for coordinate, indices in zip(self.numbers, index, strict=True)}
+        by_name = {
+            coordinate.name: indices for coordinate, indices in zip(self.parameter_dimensions, index, strict=True)
+        }
         relative, absolute = self._select_deviations(by_name, len(runs))
         return Job(
             part.mechanism,
@@ -156,7 +161,7 @@ class Plan:
             part.overrides,
             part.sha256,
             block_number,
-            part_index * self.each + int(runs[0]),
+            part_index * self.runs_per_part + int(runs[0]),
             len(runs),
             columns,
             relative,
@@ -169,9 +174,10 @@ class Plan:
     def _select_deviations(
         self, indices_by_dimension: Mapping[str, Array], n_runs: int
     ) -> tuple[dict[str, Array], dict[str, Array]]:
-        """Return relative and absolute deviations of runs by parameter, (n,) each; empty without perturbed starts.
+        """Return the relative and absolute deviations of runs by parameter, (n_runs,) each.
 
-        indices_by_dimension: indices of the runs along each dimension, (n_runs,) each.
+        indices_by_dimension: indices of the runs along each dimension, (n_runs,) each. Both are empty without perturbed
+        starts.
         """
         if self.deviations is None:
             return {}, {}
@@ -182,7 +188,10 @@ class Plan:
 
     @cached_property
     def input_description(self) -> dict[str, Any]:
-        """Return a description of all inputs of the results as JSON data; two studies are the same if it is equal."""
+        """Return all inputs of the results as JSON data: study file, version of gudgeon, digests of the libraries.
+
+        A folder belongs to this plan if its manifest has an equal description.
+        """
         import gudgeon
 
         parts = {
@@ -204,15 +213,15 @@ class Plan:
     @cached_property
     def digest(self) -> str:
         """Return the SHA-256 of `input_description` and of the block sizes, by which files of blocks are recognised."""
-        return _compute_sha256([self.input_description, [part.block for part in self.parts]])
+        return _compute_sha256([self.input_description, [part.block_runs for part in self.parts]])
 
 
 @dataclass(frozen=True, eq=False)
 class Plans:
-    """The plans of a study file: one for each of its parts, or one with the name ""."""
+    """The plans of a study file by part: one for each of its parts, or one with the name ""; and its claims."""
 
     file: StudySet
-    each: Mapping[str, Plan]
+    by_part: Mapping[str, Plan]
     claims: ResolvedClaims | None = None
 
     @property
@@ -223,13 +232,13 @@ class Plans:
     @property
     def runs(self) -> int:
         """Return the number of runs of all parts."""
-        return sum(plan.runs for plan in self.each.values())
+        return sum(plan.runs for plan in self.by_part.values())
 
 
 def check_study_size(study: StudyFile) -> None:
-    """Raise BadValueError at the longest dimension for too many runs or structures of a study.
+    """Raise BadValueError at the longest dimension if a study has more than MAX_RUNS runs or MAX_STRUCTURES structures.
 
-    The check needs no loaded mechanism. A structure is a scene with one option of each choice.
+    A structure is a scene with one option of each choice. It is called first, since it needs no loaded mechanism.
     """
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
@@ -240,12 +249,12 @@ def check_study_size(study: StudyFile) -> None:
         numbers.append((study.starts.count * len(study.starts.ensembles), start_name.where))
     loaded, runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *numbers])
     for count, most, several, what in (
-        (loaded, MOST_STRUCTURES, structures, "scenes with their choices, a library each"),
-        (runs, MOST_RUNS, [*structures, *numbers], "runs"),
+        (loaded, MAX_STRUCTURES, structures, "scenes with their choices, one library each"),
+        (runs, MAX_RUNS, [*structures, *numbers], "runs"),
     ):
         if count > most:
             where = max(several, key=lambda one: one[0])[1]
-            raise BadValueError(f"the study has {count} {what}", where, f"expected {most:.0e} at most")
+            raise BadValueError(f"the study has {count} {what}", where, f"expected at most {most:.0e}")
 
 
 def _compute_sha256(value: Any) -> str:

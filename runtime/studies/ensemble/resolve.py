@@ -1,4 +1,4 @@
-"""Resolve a study file to a plan of runs: load its mechanism in each variant, and check every name and unit."""
+"""Resolve a study file to a plan of runs: load its mechanism in each variant, and check all names, units and values."""
 
 from __future__ import annotations
 
@@ -37,35 +37,35 @@ from gudgeon.studies.ensemble.measures import (
 from gudgeon.studies.ensemble.parameter_values import (
     check_constant_settings,
     check_expression,
-    check_finite,
+    check_finite_values,
     find_parameter,
     find_parameter_in_scenes,
     parse_dimension_values,
     parse_parameter_value,
     parse_real_value,
 )
-from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_study_size
+from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Part, Plan, StudyDimension, check_study_size
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Distribution, Draw, Starts, StudyFile
     from gudgeon.generator.yaml import Text
 
 
-BLOCK = 128  # runs of a block at most
-MAX_BLOCK_BYTES = 1 << 26  # of states and series of a block, about
-N_SIZING_RUNS = 64  # runs of a part whose samples are counted to size its blocks
+MAX_BLOCK_RUNS = 128
+MAX_BLOCK_BYTES = 1 << 26  # approximate limit of the states and series of a block
+N_SIZING_RUNS = 64  # runs of a part from which its number of samples is estimated
 RANDOM, LATIN, HALTON = "random", "latin_hypercube", "halton"
 NORMAL, GEOMETRIC = "normal", "geometric"
 
 
 def resolve_study(study: StudyFile) -> Plan:
-    """Load every structure of a study file and return its plan, with all names, units and values checked.
+    """Load all scenes of a study (a part of a file) in all variants, and return its plan with checked names and values.
 
-    Raises an InputError at its location in the file.
+    Missing libraries are compiled. Raises an InputError at its location in the file.
     """
     check_study_size(study)
     structure, coordinates = _resolve_structure(study)
-    parts = tuple(_load_parts(study))
+    parts = tuple(_load_structures(study))
     sources = [part.simulation.source for part in parts]
     numbers, parameter_coordinates = _resolve_parameters(study, sources)
     deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
@@ -94,10 +94,10 @@ def resolve_study(study: StudyFile) -> Plan:
     return replace(plan, parts=tuple(_choose_block_size(plan, k) for k in range(len(parts))))
 
 
-def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
-    """Return dimensions and coordinates of scenes and of choices of structure.
+def _resolve_structure(study: StudyFile) -> tuple[list[StudyDimension], list[Coordinate]]:
+    """Return dimensions and coordinates of the scenes and of the choices of structure of a study.
 
-    A single scene is a coordinate without a dimension.
+    A scene that the file writes without brackets (`scenes: dry`) is a scalar coordinate without a dimension.
     """
     named = [("scene", [str(name) for name in study.scenes], "scene of the mechanism")] if not study.one_scene else []
     named += [(choice.name, list(choice.options), "choice of structure") for choice in study.choices]
@@ -106,13 +106,13 @@ def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordina
         coordinates.append(
             Coordinate("scene", (), np.array(str(study.scenes[0]), object), "", "scene of the mechanism")
         )
-    return [Dimension(name, len(words)) for name, words, _ in named], coordinates
+    return [StudyDimension(name, len(words)) for name, words, _ in named], coordinates
 
 
-def _load_parts(study: StudyFile) -> Iterator[Part]:
-    """Yield a part with its loaded library for every combination of scene and options.
+def _load_structures(study: StudyFile) -> Iterator[Part]:
+    """Load the library of every combination of scene and options, and yield a part for each.
 
-    Scenes that measures subtract are loaded and checked, too. Raises an InputError at its location.
+    Scenes that measures subtract are loaded, too, and checked for the series. Raises an InputError at its location.
     """
     mechanism = find_study_mechanism(study)
     for scene, texts, overrides in iterate_structures(study):
@@ -124,10 +124,10 @@ def _load_parts(study: StudyFile) -> Iterator[Part]:
 def _load_scene(
     mechanism: str, scene: Text, override_texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]
 ) -> Simulation:
-    """Return the loaded scene with these overrides, (address, text) pairs.
+    """Load a scene of a mechanism with these overrides, (address, text) pairs, and return its simulation.
 
-    override_texts: the same by address with locations; an error of an override is raised at its location in the study
-    file, a mistake in the mechanism's file at its own.
+    override_texts: the same overrides by address, with locations. An error of an override or of the scene's name is
+    raised at its location in the study file, an error of the mechanism's file at its location there.
     """
     try:
         return load(mechanism, str(scene), overrides=dict(overrides), quick=False)
@@ -137,15 +137,15 @@ def _load_scene(
         text = override_texts.get(address) or next(
             (override_text for name, override_text in override_texts.items() if repr(name) in error.message), None
         )
-        if file and address not in override_texts:  # a mistake of the mechanism's file
+        if file and address not in override_texts:  # an error of the mechanism's file
             raise
         raise type(error)(error.message, (text or scene).where, error.hint) from None
 
 
-def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
-    """Return dimensions and coordinates of the varied parameters: `parameters:`, `zip:` and `draw:` of the study
-    file.
-    """
+def _resolve_parameters(
+    study: StudyFile, sources: Sequence[KernelSource]
+) -> tuple[list[StudyDimension], list[Coordinate]]:
+    """Return dimensions and coordinates of the varied parameters: keys `parameters`, `zip` and `draw` of a study."""
     dimensions, coordinates = [], []
     for axis in study.axes:
         columns = {}
@@ -158,10 +158,10 @@ def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tu
         length = len(next(iter(columns.values())))
         if axis.grouped:
             coordinates.append(Coordinate(axis.name, (axis.name,), np.arange(length), "", f"place in zip {axis.name}"))
-        dimensions.append(Dimension(axis.name, length, columns))
+        dimensions.append(StudyDimension(axis.name, length, columns))
     if study.draw is not None:
         columns = _draw_values(study.draw, sources)
-        dimensions.append(Dimension("draw", study.draw.count, columns))
+        dimensions.append(StudyDimension("draw", study.draw.count, columns))
         message = f"point of {study.draw.method}, seed {study.draw.seed}"
         coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
         for name in study.draw.numbers:
@@ -171,9 +171,10 @@ def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tu
 
 
 def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
-    """Return the random or quasi-random values of each drawn parameter in SI, (count,) by name.
+    """Return the random or quasi-random values (SI) of each parameter of `draw`, (count,) by name.
 
-    Raises BadValueError at its location for invalid ends or deviations, and for values that are not finite.
+    They depend on method and seed only. Raises BadValueError at its location for invalid ends or standard deviations,
+    and for values that are not finite.
     """
     points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
     drawn_values = {}
@@ -188,15 +189,18 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
-            values = compute_quantiles(spread, first, second, points[:, draw.names.index(name)])
-            drawn_values[str(name)] = check_finite(values, spread.ends[1])
+            values = compute_distribution_quantiles(spread, first, second, points[:, draw.names.index(name)])
+            drawn_values[str(name)] = check_finite_values(values, spread.ends[1])
     return drawn_values
 
 
 def _resolve_starts(
     starts: Starts | None, sources: Sequence[KernelSource]
-) -> tuple[Deviations | None, list[Coordinate], list[Dimension]]:
-    """Return deviations, coordinates and dimensions of perturbed starts; None and empty lists without them."""
+) -> tuple[Deviations | None, list[Coordinate], list[StudyDimension]]:
+    """Return deviations, coordinates and dimensions of perturbed starts (the key `starts`); None, [], [] without them.
+
+    Without named ensembles, the coordinates have no dimension `ensemble`.
+    """
     if starts is None:
         return None, [], []
     names = sorted({str(name): name for ensemble in starts.ensembles.values() for name in ensemble}.values())
@@ -232,23 +236,23 @@ def _resolve_starts(
                     ensemble_dimension,
                     np.array(size),
                     unit,
-                    f"{kind} size of what {name} is off",
+                    f"{kind} size of the deviation of {name}",
                 ),
                 Coordinate(
                     f"{name}.{kind}", (*ensemble_dimension, "start"), values, unit, f"{kind} deviation of {name}"
                 ),
             ]
-    dimensions = [Dimension("ensemble", len(ensembles))] if starts.named else []
-    return deviations_, coordinates, [*dimensions, Dimension("start", starts.count)]
+    dimensions = [StudyDimension("ensemble", len(ensembles))] if starts.named else []
+    return deviations_, coordinates, [*dimensions, StudyDimension("start", starts.count)]
 
 
 def _parse_deviation_sizes(
     ensembles: Sequence[Mapping[Text, Deviation]], name: Text, parameter: RuntimeParameter, is_relative: bool
 ) -> Array | None:
-    """Return the size of the deviation of a parameter in each ensemble (SI), 0 for an ensemble without it.
+    """Return the size of the relative or absolute (SI) deviation of a parameter in each ensemble, (n_ensembles,).
 
-    is_relative: which kind of deviation. None if no ensemble has this kind. Raises BadValueError for a size that is not
-    positive.
+    It is 0 for an ensemble without it. parameter: with the dimension of the size. None if no ensemble has this kind of
+    deviation. Raises BadValueError for a size that is not positive.
     """
     sizes, is_found = np.zeros(len(ensembles)), False
     for k, ensemble in enumerate(ensembles):
@@ -261,9 +265,9 @@ def _parse_deviation_sizes(
 
 
 def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSettings:
-    """Return the requested outputs and settings of the runs, with expressions and methods checked in every scene.
+    """Return the settings of all runs (end, output, step, windows, measures, method, wear), checked in every scene.
 
-    Raises an InputError at its location.
+    Raises an InputError at its location for a wrong dimension, unknown name, method or tolerance.
     """
     ends = {"t_end": TIME}
     rtol = None if study.rtol is None else _parse_tolerance(study.rtol)
@@ -295,13 +299,13 @@ def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSetting
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
-    """Raise an InputError at its location for a method or tolerance that a scene does not allow.
+    """Raise an InputError at its location for a method, tolerance or step that a scene does not allow.
 
-    Settings of a kinematically driven scene are ignored. `rtol`: the tolerance, None if it is not given.
+    Tolerance and step are ignored in a kinematically driven scene. rtol: the tolerance; None if the study has none.
     """
     method, where = choose_method(source, str(study.method)), study.method.where
-    moves = bool(source.degrees_of_freedom)
-    fixed, rtol = moves and study.step is not None, rtol if moves else None
+    is_dynamic = bool(source.degrees_of_freedom)
+    fixed, rtol = is_dynamic and study.step is not None, rtol if is_dynamic else None
     try:
         selected = select_method(source, method, fixed)
         where = study.rtol.where if study.rtol is not None else where
@@ -311,14 +315,14 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
 
 
 def _parse_tolerance(text: Text) -> float:
-    """Return the value of the text of `rtol`. Raises an InputError at the text."""
+    """Return the value of the text of `rtol`, a pure number. Raises an InputError at the text for anything else."""
     return parse_real_value(text, RuntimeParameter("rtol", "", 0.0, False, (0, 0, 0)))
 
 
 def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
-    """Return the SI units of measures and stored series by name.
+    """Return the SI units of measures and stored series by name, from the first scene that has them.
 
-    Raises UnknownNameError at the name for a measure or series that no scene has.
+    Raises an InputError at the name for a measure or series that no scene has.
     """
     unit_by_name = {}
     for measure in study.measures:
@@ -338,40 +342,44 @@ def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[st
 
 
 def _describe_ineffective_settings(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
-    """Yield a sentence for each parameter, measure, series or setting of a study that has no effect in some scenes."""
+    """Yield a note for each parameter, measure, series or setting of a study that has no effect in some scenes.
+
+    Varied values that a value for all runs (--set) replaces get a note, too.
+    """
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
     names += [*study.draw.numbers] if study.draw else []
     names += [name for ensemble in study.starts.ensembles.values() for name in ensemble] if study.starts else []
     for axis in study.left_out:
         for name, numbers in axis.columns.items():
             count = numbers.count or len(numbers.texts)
-            yield f"{name} is set for all runs, over the {format_count(count, 'value')} that the file has for it"
+            yield f"{name} is set for all runs, in place of {format_count(count, 'value')} in the study file"
     by_scene = {source.scene: source for source in sources}
     for name in dict.fromkeys(names):
         if lacking := [scene for scene, source in by_scene.items() if find_parameter(source, str(name)) is None]:
-            yield f"{name} is no number of scene {', '.join(lacking)}: there the runs are the same whatever it is"
-    if still := [
+            yield f"{name} is not a parameter of scene {', '.join(lacking)}: its runs do not depend on it"
+    if kinematic_scenes := [
         scene for scene, source in by_scene.items() if choose_method(source, str(study.method)) != study.method
     ]:
-        yield f"scene {', '.join(still)} has no degree of freedom: it follows its drives, whatever method says"
+        names_of_scenes = ", ".join(kinematic_scenes)
+        yield f"scene {names_of_scenes} has no degree of freedom: it follows its drives, and method has no effect"
     for measure in study.measures:
         if lacking := [scene for scene, source in by_scene.items() if find_measure_unit(measure, source) is None]:
             yield (
                 f"{measure.name}, {describe_measure(measure)}, is NaN in scene {', '.join(lacking)}, "
-                "which has no such thing"
+                "which lacks the joint, event or series"
             )
     for name in study.keep:
         if lacking := [scene for scene, source in by_scene.items() if name not in get_catalogue(source)]:
-            yield f"{name} is NaN in scene {', '.join(lacking)}, which has no such series"
+            yield f"{name} is NaN in scene {', '.join(lacking)}, which lacks the series"
 
 
 def _choose_block_size(plan: Plan, part_index: int) -> Part:
-    """Return a part with its number of runs per block, and with the mean and largest number of samples of a run.
+    """Return a part of the plan with its number of runs per block, and the mean and maximum number of samples of a run.
 
-    The samples of a block fit into MAX_BLOCK_BYTES. The numbers of samples are estimated from at most N_SIZING_RUNS of
-    the runs. part_index: of the part in the plan.
+    A block has at most MAX_BLOCK_RUNS runs, and its samples fit into MAX_BLOCK_BYTES. The numbers of samples are
+    estimated from at most N_SIZING_RUNS evenly distributed runs.
     """
-    runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, N_SIZING_RUNS)).astype(int))
+    runs = np.unique(np.linspace(0, plan.runs_per_part - 1, min(plan.runs_per_part, N_SIZING_RUNS)).astype(int))
     job: Job = plan.make_job(0, part_index, runs, None)
     counts = RunTable(plan.parts[part_index].simulation, job).output
     valid_counts = counts[~np.isnan(counts)] + 1.0
@@ -383,15 +391,15 @@ def _choose_block_size(plan: Plan, part_index: int) -> Part:
             plan.run_settings.measures, plan.run_settings.keep, plan.parts[part_index].simulation.source
         )
     )
-    block = int(max(1, min(BLOCK, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
-    return replace(plan.parts[part_index], block=block, samples=mean_samples, most=max_samples)
+    block_runs = int(max(1, min(MAX_BLOCK_RUNS, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
+    return replace(plan.parts[part_index], block_runs=block_runs, mean_samples=mean_samples, max_samples=max_samples)
 
 
 def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> Array:
-    """Return points of the unit cube, (count, n_dimensions), for a method of `draw:` and a seed.
+    """Return random or quasi-random points of the unit cube, (count, n_dimensions), for a method of `draw` and a seed.
 
-    method: "random" (independent points), "latin_hypercube", "halton", or Sobol for any other; the last ones by
-    scipy.stats.qmc, scrambled if possible.
+    method: "random" (independent points), "latin_hypercube", "halton" or "sobol", the last three by scipy.stats.qmc.
+    Sobol points are the first of a scrambled sequence.
     """
     if method == RANDOM:
         return np.random.default_rng(seed).random((count, n_dimensions))
@@ -404,13 +412,13 @@ def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> A
     return np.asarray(qmc.Sobol(n_dimensions, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def compute_quantiles(
+def compute_distribution_quantiles(
     distribution: Distribution, mean_or_low: float, deviation_or_high: float, fractions: Array
 ) -> Array:
-    """Return the quantiles (SI) of a normal, log-uniform (`spacing: geometric`) or uniform distribution.
+    """Return the quantiles (SI), (n,), of a normal, log-uniform (`spacing: geometric`) or uniform distribution.
 
-    fractions: cumulative probabilities (n,) in [0, 1], at which the inverse of the distribution function is evaluated.
-    mean_or_low, deviation_or_high: mean and standard deviation of a normal distribution, else the two ends.
+    fractions: cumulative probabilities (n,) in [0, 1] (inverse transform sampling). mean_or_low, deviation_or_high:
+    mean and standard deviation of a normal distribution, else the two ends.
     """
     if distribution.kind == NORMAL:
         from scipy.special import ndtri
@@ -422,10 +430,10 @@ def compute_quantiles(
 
 
 def draw_deviations(starts: Starts, names: list[str]) -> Array:
-    """Return random deviations of each ensemble, start and parameter, (n_ensembles, count, n_names).
+    """Return the random deviations u of each ensemble, start and parameter, (n_ensembles, count, n_names).
 
-    They are uniform in [−1, 1], or normal with σ = 1. They are the same at every other coordinate of the study, so
-    that runs can be compared start by start.
+    They are uniform in [−1, 1], or standard normal, and depend on the seed only. All cells of the study use the same
+    ones (common random numbers), so that runs can be compared start by start.
     """
     each = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
     shape = (starts.count, len(names))

@@ -1,4 +1,4 @@
-"""Run a study file and return it as one Dataset: `gudgeon.study` and `gudgeon.load_study`."""
+"""Run a study file (parameter study) and return its results: `gudgeon.study` and `gudgeon.load_study`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from gudgeon.studies.ensemble.folder import (
     read_manifest,
 )
 from gudgeon.studies.ensemble.loop import finish_study
-from gudgeon.studies.ensemble.names import write_names
+from gudgeon.studies.ensemble.names import write_display_names
 from gudgeon.studies.ensemble.workers import convert_to_executor
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import Plan, Plans
 
-MOST_THREADS = 4096
+MAX_THREADS = 4096
 
 
 def resolve_plans(
@@ -47,11 +47,11 @@ def resolve_plans(
     starts: int | None = None,
     seed: int | None = None,
 ) -> Plans:
-    """Return the plans of a study with its mechanisms loaded.
+    """Read a study file, compile and load its scenes, and return its plans; nothing is run.
 
-    study: a file, the name of a shipped study, or a mapping. settings: values by address that override those of the
-    study. starts, seed: as in `study`. Raises InputError at the location of a mistake, GudgeonError without xarray and
-    h5py.
+    study: a file, the name of a shipped study, or a mapping with the keys of a file. settings: values by address that
+    override those of the study. starts, seed: as in `study`. Raises InputError at the location of a mistake,
+    GudgeonError without xarray and h5py.
     """
     from gudgeon.generator.study.parts import MAX_COUNT, MAX_SEED
     from gudgeon.generator.study.read import read_studies
@@ -70,9 +70,9 @@ def resolve_plans(
 
 
 def _resolve_parts(studies: StudySet) -> Plans:
-    """Return the plans of all parts of a study file with its claims; libraries are compiled by two processes.
+    """Resolve all parts of a study file and its claims to plans; libraries are compiled by two processes.
 
-    Raises the errors of all parts together, without repetitions.
+    Raises one error that combines the errors of all parts, without repetitions.
     """
     from gudgeon.studies.ensemble.claims import resolve_claims
     from gudgeon.studies.ensemble.libraries import compile_libraries_in_second_process, list_libraries
@@ -110,23 +110,23 @@ def study(
 ) -> Study:
     """Run all runs of a study and compute its measures.
 
-    study: a YAML file (docs/studies.md), the name of one that comes with gudgeon, or a mapping with the same contents.
-    folder: finished blocks of runs are stored there at once; the same call resumes an interrupted study to the same
-    dataset. None: a temporary folder, deleted with the Study. threads: in each process, None for the number of cores (1
-    with an executor). executor: any of concurrent.futures, or a Client of dask.distributed; its workers receive blocks
-    and load their own libraries. restart: begin anew. settings: {address: number or text} for all runs, which override
-    the study's own values, rows and draws. starts, seed: number and seed of perturbed starts instead of those of the
-    study. A failed run has its reason and NaN, and does not stop others.
+    study: a YAML file (docs/studies.md), the name of a shipped study, or a mapping with the same contents. folder:
+    finished blocks of runs are stored there at once; the same call resumes an interrupted study to the same dataset.
+    None: a temporary folder, deleted with the Study. threads: in each process, None for the number of cores (1 with an
+    executor). executor: any of concurrent.futures, or a Client of dask.distributed; its workers receive blocks and load
+    their own libraries. restart: remove earlier results first. settings: {address: number or text} for all runs, which
+    override the values, ranges and draws of the study. starts, seed: number and seed of perturbed starts instead of
+    those of the study. A failed run has a reason and NaN, and does not stop others.
 
     Raises InputError with its location for a mistake in the study or a folder of another study; OutputError for a full
-    disk. Ctrl-C is passed on, and finished blocks stay in the folder.
+    disk. Ctrl-C raises KeyboardInterrupt, and finished blocks stay in the folder.
     """
-    threads = None if threads is None else check_integer(threads, "threads", 1, MOST_THREADS)
+    threads = None if threads is None else check_integer(threads, "threads", 1, MAX_THREADS)
     pool, progress = convert_to_executor(executor), check_callable(progress, "progress")
     restart, plans = check_flag(restart, "restart"), resolve_plans(study, settings, starts, seed)
     if folder is None:
-        kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
-        return run_plans(plans, Path(kept.name), threads, pool, progress, restart, kept)
+        temporary = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
+        return run_plans(plans, Path(temporary.name), threads, pool, progress, restart, temporary)
     return run_plans(plans, Path(check_path(folder, "folder")), threads, pool, progress, restart)
 
 
@@ -139,47 +139,51 @@ def run_plans(
     restart: bool = False,
     temporary_folder: tempfile.TemporaryDirectory[str] | None = None,
 ) -> Study:
-    """Run the plans of a study file in a folder, write claims and names, and return the finished study.
+    """Run or resume the plans of a study file in a folder, judge its claims, and return the finished study.
 
-    Each part of a file with parts has a subfolder. Other arguments are those of `study`, but `executor` must be one of
-    concurrent.futures. temporary_folder: temporary folder that lives as long as the study. Raises OutputError or
-    MemoryError before the first run if disk or memory do not suffice. `progress` None: nothing is reported.
+    Each part of a file with parts has a subfolder. It also writes the display texts (names.json). Other arguments are
+    those of `study`, but `executor` must be one of concurrent.futures. temporary_folder: deleted with the study. Raises
+    OutputError or MemoryError before the first run if disk or memory do not suffice.
     """
     check_disk_and_memory(plans, folder, threads, executor is None)
     if plans.named:
-        create_parts_folder(folder, list(plans.each), restart)
+        create_parts_folder(folder, list(plans.by_part), restart)
     done = 0
-    for name, plan in plans.each.items():
+    for name, plan in plans.by_part.items():
 
-        def report(fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done) -> None:
-            """Report the progress of a part as a fraction of the whole study."""
+        def report_part_progress(
+            fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done
+        ) -> None:
+            """Report the progress of a part as a fraction of the runs of all parts, with the name of the part."""
             if progress:
                 progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
 
         with StudyFolder(folder / name, plan).open_locked(restart) as opened:
-            finish_study(opened, threads, executor, report if progress else None)
+            finish_study(opened, threads, executor, report_part_progress if progress else None)
         done += plan.runs
-    study = StudyOfParts(folder, list(plans.each), temporary_folder) if plans.named else Study(folder, temporary_folder)
-    write_names(folder, plans)
+    study = (
+        StudyOfParts(folder, list(plans.by_part), temporary_folder) if plans.named else Study(folder, temporary_folder)
+    )
+    write_display_names(folder, plans)
     if plans.claims is not None:
         write_claims(folder, plans, plans.claims, study)
     return study
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
-    """Return the finished study in a folder, with or without parts.
+    """Open the finished study in a folder, with or without parts; its data are read on request.
 
-    Raises InputError for a folder without a study, or with an unfinished or damaged one.
+    Raises InputError for a folder without a study, or if any part is unfinished or damaged.
     """
     folder_path = Path(check_path(folder, "folder"))
     if (manifest_ := read_manifest(folder_path)) is None:
-        raise InputError(f"{shorten_path(folder_path)} is no folder of a study: it has no {MANIFEST}")
+        raise InputError(f"{shorten_path(folder_path)} is not a study folder: it has no {MANIFEST}")
     if parts := list_part_names(manifest_):
         for name in parts:
             load_study(folder_path / name)
         return StudyOfParts(folder_path, parts)
     if not (folder_path / DATASET).is_file():
         message = f"the study in {shorten_path(folder_path)} is not finished"
-        raise InputError(message, hint="gudgeon study FILE --out FOLDER goes on with it")
+        raise InputError(message, hint="resume it by: gudgeon study FILE --out FOLDER")
     check_dataset(folder_path, manifest_.get("plan"))
     return Study(folder_path)

@@ -1,4 +1,4 @@
-"""Own the executors of a study's runs: local processes, a cluster of dask, any executor of concurrent.futures."""
+"""Own the executors that run a study's blocks: worker processes, a dask cluster, any executor of concurrent.futures."""
 
 from __future__ import annotations
 
@@ -15,27 +15,28 @@ from typing import Any
 from gudgeon.errors import GudgeonError, InputError, escape_line_breaks
 from gudgeon.language.argument_checks import check_instance
 
-BLOCKS_PER_WORKER = 2  # blocks for each worker that wait or run
+BLOCKS_PER_WORKER = 2  # submitted blocks per worker, running or waiting
 DEFAULT_N_WORKERS = 4  # assumed workers of an executor whose number is not known
-PATIENCE = 10  # s, timeout of a cluster
+CLUSTER_TIMEOUT_S = 10  # s, timeout of the connection to a cluster
 
 
 class Processes(Executor):
-    """Executor with spawned worker processes, each of which loads its own libraries; `replace_processes` replaces them
-    after a death.
+    """Executor with spawned worker processes, each of which loads its own libraries.
+
+    After the death of a process, `replace_processes` starts new ones. Shutdown terminates running work.
     """
 
     def __init__(self, count: int, laws: tuple[str, ...] = ()) -> None:
-        """Start `count` processes that know the user-defined laws in the files `laws`."""
+        """Create a pool of `count` processes, in which the user-defined laws of the files `laws` are registered."""
         self.count, self.laws = count, laws
         self.pool = self._create_pool()
 
     def _create_pool(self) -> ProcessPoolExecutor:
-        """Return a pool of new spawned processes; they start at the first submission."""
+        """Return a process pool with the start method "spawn"; its processes start at the first submission."""
         return ProcessPoolExecutor(self.count, get_context("spawn"), initialize_worker, (self.laws,))
 
     def replace_processes(self) -> None:
-        """Replace all processes by new ones after one of them died, so that unfinished work can be submitted again."""
+        """Terminate all processes and create a new pool, after one of them died; submitted work is lost."""
         self._terminate_processes()
         self.pool = self._create_pool()
 
@@ -48,7 +49,7 @@ class Processes(Executor):
         self._terminate_processes()
 
     def _terminate_processes(self) -> None:
-        """Terminate all processes and cancel the waiting work."""
+        """Terminate all processes at once, also running ones, and cancel the waiting work."""
         processes = dict(getattr(self.pool, "_processes", None) or {})
         for process in processes.values():
             process.terminate()
@@ -56,9 +57,9 @@ class Processes(Executor):
 
 
 def initialize_worker(law_files: tuple[str, ...]) -> None:
-    """Prepare a new worker process: it ignores Ctrl-C, ends with its parent, and knows the user-defined laws.
+    """Initialize a new worker process: ignore Ctrl-C, watch the parent process, register the user-defined laws.
 
-    law_files: files of the laws.
+    law_files: files of the laws. The process exits when its parent ends.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_exit_after_parent, daemon=True).start()
@@ -69,8 +70,10 @@ def initialize_worker(law_files: tuple[str, ...]) -> None:
 
 
 def _exit_after_parent() -> None:
-    """Wait until the parent process ends, for example because it is killed, and end this process; for a thread of its
-    own.
+    """Wait until the parent process ends, also if it is killed, and exit this process at once; target of a daemon
+    thread.
+
+    Without a parent process of multiprocessing it returns at once.
     """
     if (parent := parent_process()) is not None:
         parent.join()
@@ -80,7 +83,7 @@ def _exit_after_parent() -> None:
 def convert_to_executor(executor_or_client: Any) -> Executor | None:
     """Return an executor of concurrent.futures: the argument itself, or the executor of a dask Client; None for None.
 
-    Raises BadValueError for anything else.
+    Raises BadValueError for another type.
     """
     distributed = sys.modules.get("distributed")
     if distributed is not None and isinstance(executor_or_client, distributed.Client):
@@ -90,19 +93,19 @@ def convert_to_executor(executor_or_client: Any) -> Executor | None:
 
 
 def compute_max_submitted_blocks(executor: Executor) -> int:
-    """Return the number of blocks to submit at once to an executor, BLOCKS_PER_WORKER per worker.
+    """Return the maximum number of running and waiting blocks of an executor: BLOCKS_PER_WORKER per worker.
 
-    More would cost memory, fewer would let workers wait. DEFAULT_N_WORKERS workers are assumed if their number is not
-    known.
+    More would need memory, fewer would let workers wait. For a dask cluster, its present number of cores counts;
+    DEFAULT_N_WORKERS workers are assumed if their number is unknown.
     """
     count = getattr(executor, "count", None) or getattr(executor, "_max_workers", None)
     if count is None and (client := getattr(executor, "_connect", None)) is not None:
-        count = sum(client.ncores().values())  # of a cluster that grows and shrinks
+        count = sum(client.ncores().values())  # the number of workers may change during a study
     return BLOCKS_PER_WORKER * max(1, DEFAULT_N_WORKERS if count is None else count)
 
 
 def is_lost_worker_error(error: BaseException) -> bool:
-    """Return whether an error means that a worker process ended before its work did."""
+    """Return whether an error means that a worker process died: a broken pool, cancelled work, KilledWorker of dask."""
     distributed = sys.modules.get("distributed")
     killed = (distributed.KilledWorker,) if distributed is not None else ()
     return isinstance(error, (BrokenExecutor, CancelledError, *killed))
@@ -110,15 +113,15 @@ def is_lost_worker_error(error: BaseException) -> bool:
 
 @contextmanager
 def open_workers(n_processes: int | None, cluster_address: str | None) -> Iterator[Executor | None]:
-    """Yield an executor with `n_processes` processes, or of the dask cluster at the address `cluster_address`; None for
-    neither.
+    """Yield the executor of the options --workers (n_processes) or --dask (cluster_address); None without both options.
 
-    It is shut down at the end of the context. Raises InputError for both or no answer, GudgeonError without dask.
+    It is shut down at the end of the context. Raises InputError for both options or if no scheduler answers,
+    GudgeonError without dask.
     """
     if n_processes is not None and cluster_address is not None:
-        raise InputError("--workers and --dask: a cluster has its own workers", hint="give one of them")
+        raise InputError("--workers and --dask: a cluster has its own workers", hint="use one of the two options")
     if n_processes is not None:
-        with Processes(n_processes, list_law_files()) as executor:
+        with Processes(n_processes, list_registered_law_files()) as executor:
             yield executor
     elif cluster_address is not None:
         with _connect_to_cluster(cluster_address) as client:
@@ -127,8 +130,11 @@ def open_workers(n_processes: int | None, cluster_address: str | None) -> Iterat
         yield None
 
 
-def list_law_files() -> tuple[str, ...]:
-    """Return the files of the user-defined laws that are registered in this process."""
+def list_registered_law_files() -> tuple[str, ...]:
+    """Return the files of the user-defined laws that are registered in this process, for `initialize_worker`.
+
+    Laws without a file are left out.
+    """
     module = sys.modules.get("gudgeon.generator.kinds.laws.registered")
     return () if module is None else tuple(origin.file for origin in module.ORIGINS.values() if origin.file)
 
@@ -144,11 +150,11 @@ def _connect_to_cluster(address: str) -> Iterator[Any]:
     except ModuleNotFoundError as error:
         raise GudgeonError("clusters need dask: pip install 'gudgeon[dask]'") from error
     try:
-        if not address.strip():  # of that Client makes a cluster of its own
+        if not address.strip():  # for an empty address, Client would start a local cluster
             raise ValueError("the address is empty")
         client = Client(
-            address, timeout=PATIENCE, set_as_default=False
-        )  # otherwise other code would use a failed client
+            address, timeout=CLUSTER_TIMEOUT_S, set_as_default=False
+        )  # as the default, other code would use a client that failed
     except (OSError, ValueError, TypeError) as error:
         message = (
             f"--dask: no scheduler answers at {escape_line_breaks(address)[:100]}: "

@@ -1,4 +1,4 @@
-"""Print and write the results of `gudgeon bench`: tables, sentences, CSV, JSON, a figure."""
+"""Print and write the results of `gudgeon bench`: run time against error as tables, sentences, CSV, JSON, a figure."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gudgeon.studies.show.tables import (
     format_fraction,
     format_seconds,
     make_console,
-    make_table,
+    make_rich_table,
     write_table_and_figure,
 )
 
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 COLUMNS = ("method", "step, tol", "run time", "rhs", "Jacobians", "coordinates", "paths", "forces")
-GOOD_FORCE = 0.01  # largest error of forces, as a fraction of the peak force, in the notes of `bench`
-TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # bounds of errors in the second table
+MAX_FORCE_ERROR = 0.01  # error of forces, as a fraction of the peak force, up to which a step of rk4 is recommended
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # error bounds in the table of run times
 
 
 def report_bench(
@@ -36,11 +36,10 @@ def report_bench(
     marked_step: float | None,
     as_json: bool = False,
 ) -> None:
-    """Print the results of `gudgeon bench` (with `as_json` as JSON), and write the table as CSV and the figure next to
-    it.
+    """Write the results of `gudgeon bench` as a CSV table and a figure next to it, and print them.
 
-    marked_step (s): step of rk4 that is marked in the figure and described; None for none. An OutputError for a file is
-    raised after printing.
+    marked_step (s): step of rk4 that is marked in the figure and described in words; None for none. as_json: print JSON
+    instead. An OutputError for a file is raised after printing.
     """
     rows = list_bench_rows(scene_benches)
 
@@ -63,7 +62,7 @@ def _print_bench(
     marked_step: float | None,
     as_json: bool,
 ) -> None:
-    """Print tables, notes and names of written files for all scenes, or one JSON document."""
+    """Print the tables and notes of all scenes and the names of written files; with `as_json` one JSON document."""
     if as_json:
         scenes = [
             {
@@ -81,13 +80,13 @@ def _print_bench(
         return
     out = make_console()
     for scene_bench in scene_benches:
-        out.print(_format_title(scene_bench), style="bold")
+        out.print(_format_scene_title(scene_bench), style="bold")
         if scene_bench.methods == ("kinematic",):
             out.print(_build_kinematic_table(scene_bench))
-        elif own_rows := [row for row in scene_bench.rows if row.setting.method not in NAMES]:
-            out.print(_build_method_table(scene_bench, own_rows))
+        elif method_rows := [row for row in scene_bench.rows if row.setting.method not in NAMES]:
+            out.print(_build_method_table(scene_bench, method_rows))
         if checks := [row for row in scene_bench.rows if row.setting.method in NAMES]:
-            out.print("  cross-checks: others' methods on the full formulation, driven from Python")
+            out.print("  cross-checks: methods of other libraries on the full formulation, called from Python")
             out.print(_build_method_table(scene_bench, checks, [name for name in COLUMNS if name != "Jacobians"]))
         for line in describe_bench(scene_bench, marked_step):
             out.print(f"  {line}")
@@ -100,8 +99,8 @@ def _print_bench(
         out.print(f"wrote {format_path(path)}")
 
 
-def _format_title(scene_bench: SceneBench) -> str:
-    """Return the title of a scene's tables: scene, length of the window, its reason, and completeness after Ctrl-C."""
+def _format_scene_title(scene_bench: SceneBench) -> str:
+    """Return the title of a scene's tables: "dry: the first 20 ms (the first 4 contacts)", with a note after Ctrl-C."""
     part = " (partial: interrupted after {} of {} rows)".format(*scene_bench.done) if scene_bench.interrupted else ""
     return (
         f"{scene_bench.scene}: the first {format_seconds(scene_bench.t_end)}"
@@ -111,8 +110,11 @@ def _format_title(scene_bench: SceneBench) -> str:
 
 
 def _build_kinematic_table(scene_bench: SceneBench) -> Table:
-    """Return the table of the kinematic method: samples, times, constraint residual; a failed row has its failure."""
-    table = make_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
+    """Return the rich table of the kinematic analysis: samples, run times, residual of the constraint equations.
+
+    A failed row has its failure instead of the run time.
+    """
+    table = make_rich_table(("samples", "per simulated s", "per sample", "max |Φ| / size"))
     for row in scene_bench.rows:
         cells = (
             format_seconds(row.seconds),
@@ -124,21 +126,21 @@ def _build_kinematic_table(scene_bench: SceneBench) -> Table:
 
 
 def _build_method_table(scene_bench: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
-    """Return a table of rows of one scene: method, setting, run time, numbers of evaluations, errors.
+    """Return the rich table of rows of one scene: method, setting, run time, numbers of evaluations, errors.
 
-    The run time is that of the window. columns: heads, without "Jacobians" to leave that column out. Errors in brackets
-    are not resolved. Failed rows have the time of failure.
+    The run time is that of the whole window. columns: heads, without "Jacobians" to omit that column. Errors in
+    brackets are not resolved by the references. Failed rows have the time of failure only.
     """
     from rich.text import Text
 
-    table = make_table(columns)
+    table = make_rich_table(columns)
     before = ""
     for row in rows:
         method = row.setting.method if row.setting.method != before else ""
         before = row.setting.method
         if row.failure:
             table.add_row(
-                method, str(row.setting), Text("fails", "red"), Text(f"at {format_seconds(row.failed_at)}", "red")
+                method, str(row.setting), Text("failed", "red"), Text(f"at {format_seconds(row.failed_at)}", "red")
             )
             continue
         errors = (_format_error_cell(scene_bench, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
@@ -149,7 +151,10 @@ def _build_method_table(scene_bench: SceneBench, rows: Sequence[Row], columns: S
 
 
 def _format_error_cell(scene_bench: SceneBench, measure: str, error: float) -> str:
-    """Return an error with two digits as a cell, in brackets if the references do not resolve it."""
+    """Return an error as a table cell with two digits, in brackets if the references do not resolve it; "–" for NaN.
+
+    measure: "motion", "path" or "force".
+    """
     return (
         _format_error(error)
         if math.isnan(error) or scene_bench.is_resolved(measure, error)
@@ -158,17 +163,18 @@ def _format_error_cell(scene_bench: SceneBench, measure: str, error: float) -> s
 
 
 def _format_error(value: float) -> str:
-    """Return an error with two digits, "–" for NaN."""
+    """Return an error as text with two digits, "1.2e-06"; "–" for NaN."""
     return "–" if math.isnan(value) else f"{value:.1e}"
 
 
 def _build_run_time_table(scene_bench: SceneBench) -> Table:
-    """Return the table of the least run time (of the window) of each method for which all errors are below a bound.
+    """Return the rich table of the minimum run time of each method for errors of at most each bound of TARGETS.
 
-    It has a column for each bound of TARGETS; "–" if a method does not reach it.
+    The run time is that of the whole window, and the largest error measure counts. "–": the method does not reach the
+    bound, or the references do not resolve it.
     """
-    table = make_table(
-        ("run time to errors below", *map(_format_error, TARGETS)), left_aligned=("run time to errors below",)
+    table = make_rich_table(
+        ("run time for errors below", *map(_format_error, TARGETS)), left_aligned=("run time for errors below",)
     )
     for method in scene_bench.methods:
         times = (scene_bench.find_run_time_for_error(target, method) * scene_bench.t_end for target in TARGETS)
@@ -177,60 +183,64 @@ def _build_run_time_table(scene_bench: SceneBench) -> Table:
 
 
 def describe_bench(scene_bench: SceneBench, marked_step: float | None) -> list[str]:
-    """Return sentences on references, orders of convergence, the largest good step of rk4, `marked_step` and omitted
-    rows.
+    """Return sentences on a scene: references, order of convergence and largest accurate step of rk4, omitted rows.
 
-    A scene without references (dof = 0) has a single sentence. marked_step (s): None for none.
+    marked_step (s): step of rk4 whose errors are described; None for none. A scene without references (dof = 0) has a
+    single sentence.
     """
     if not scene_bench.references:
-        return ["no degree of freedom: nothing is integrated, the error is what is left open of the constraints"]
+        return ["no degree of freedom: nothing is integrated, the error is the residual of the constraint equations"]
     first, second = (f"{r.method} at {r}" for r in scene_bench.references)
     a = scene_bench.agreement
     differ = ", ".join(f"{name} {_format_error(x)}" for name, x in _pair_with_names(a.motion, a.path, a.force))
     lines = [
-        f"references: {first} and {second}; a run is compared with another method",
-        f"they differ by: {differ}; below {RESOLUTION_FACTOR} times that, in brackets, not resolved",
+        f"references: {first} and {second}; a run is compared with the one by another method",
+        f"difference of the references: {differ}; errors below {RESOLUTION_FACTOR} times that are in brackets, "
+        "not resolved",
     ]
     if math.isinf(a.motion):
-        lines[1] = "one of them fails: nothing confirms the errors"
+        lines[1] = "a reference failed: the errors are not confirmed"
     orders = _pair_with_names(*(scene_bench.estimate_order(m) for m in ("motion", "path", "force")))
     if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
         lines.append(f"observed order of rk4: {text}")
     if scene_bench.list_rows("rk4"):
-        good = [row for row in scene_bench.list_rows("rk4") if not row.failure and row.error.force < GOOD_FORCE]
+        good = [row for row in scene_bench.list_rows("rk4") if not row.failure and row.error.force < MAX_FORCE_ERROR]
         bad = [row.setting.value for row in scene_bench.list_rows("rk4") if row.failure]
         text = str(good[0].setting) if good else "none"
-        line = f"largest step of rk4 with forces within {format_fraction(GOOD_FORCE)} of their peak: {text}"
-        lines.append(line + (f"; from {format_seconds(min(bad))} on the run diverges" if bad else ""))
+        line = f"largest step of rk4 with forces within {format_fraction(MAX_FORCE_ERROR)} of their peak: {text}"
+        lines.append(line + (f"; runs with {format_seconds(min(bad))} or more fail" if bad else ""))
     if marked_step is not None:
         lines.append(f"rk4 at {format_seconds(marked_step)}: {_describe_step(scene_bench, marked_step)}")
     return [*lines, *scene_bench.left_out]
 
 
 def _pair_with_names(motion: float, path: float, force: float) -> list[tuple[str, float]]:
-    """Return (name, value) of the three measures of an error, without those that are NaN."""
+    """Return pairs (name for display, value) of the three error measures, without those that are NaN."""
     pairs = (("coordinates", motion), ("paths", path), ("forces", force))
     return [(name, x) for name, x in pairs if not math.isnan(x)]
 
 
 def _describe_step(scene_bench: SceneBench, step: float) -> str:
-    """Return errors of rk4 with a step (s) in words, its failure, or "not tested"."""
+    """Return the errors of rk4 with a step (s) in words, the reason of its failure, or "not tested".
+
+    If the window has a contact, the number of steps in the shortest contact is added.
+    """
     row: Row | None = scene_bench.find_row(Setting("rk4", step))
     if row is None:
         return "not tested"
     off = (
-        (f"joint forces off by {format_fraction(row.error.force)} of their peak", row.error.force),
-        (f"journals' paths by {format_fraction(row.error.path)} of c", row.error.path),
+        (f"joint forces differ by {format_fraction(row.error.force)} of their peak", row.error.force),
+        (f"journal paths by {format_fraction(row.error.path)} of c", row.error.path),
     )
     specified = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
     if math.isfinite(scene_bench.contact):
-        specified += f"; the shortest contact takes {scene_bench.contact / step:.1f} steps"
+        specified += f"; the shortest contact lasts {scene_bench.contact / step:.1f} steps"
     return specified
 
 
 def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:
-    """Return the table of the times of one right-hand side, a row for each scene and state."""
-    table = make_table(("scene", "state", "time", "operations", "ns an operation"))
+    """Return the rich table of the times of one right-hand side, a row for each scene and state."""
+    table = make_rich_table(("scene", "state", "time", "operations", "ns per operation"))
     for scene_bench in scene_benches:
         for rhs in scene_bench.rhs:
             table.add_row(
@@ -244,7 +254,10 @@ def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:
 
 
 def list_bench_rows(scene_benches: Sequence[SceneBench]) -> list[dict[str, Any]]:
-    """Return the rows of the CSV file, column name (with SI unit) to value, for all scenes."""
+    """Return the rows of the CSV and JSON files for all scenes: column name to value (SI).
+
+    `seconds` is the run time of the window. Of step_s and tolerance, the one that does not apply is NaN.
+    """
     return [
         {
             "scene": scene_bench.scene,

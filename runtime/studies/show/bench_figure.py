@@ -1,6 +1,4 @@
-"""Draw the figure of `gudgeon bench`: error against run time and against right-hand sides, with a line for each
-method.
-"""
+"""Draw the work-precision diagram of `gudgeon bench`: error over run time and over right-hand sides, by method."""
 
 from __future__ import annotations
 
@@ -30,10 +28,10 @@ GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
 
 
 def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_step: float | None = None) -> Figure:
-    """Return the figure of `gudgeon bench`: a row of two axes for each scene, and a common legend.
+    """Return the work-precision diagrams of `gudgeon bench`: a row of two axes for each scene, and a common legend.
 
-    Scenes without references are left out if another has some. Hollow markers and a shaded band show errors within the
-    uncertainty of the references. marked_step (s): step of rk4 with a ring, or None.
+    Scenes without references (dof = 0) are left out if another scene has some. Hollow markers and a shaded band show
+    errors within the uncertainty of the references. marked_step (s): step of rk4 with a ring; None for none.
     """
     shown = [scene_bench for scene_bench in scene_benches if scene_bench.references] or list(scene_benches)
     with matplotlib.rc_context(STYLE):
@@ -56,8 +54,8 @@ def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_st
             )
             for m in used
         ]
-        doubt = "within the references' own uncertainty"
-        handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=doubt))
+        label = "within the uncertainty of the references"
+        handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=label))
         message = " (partial: interrupted)" if any(scene_bench.interrupted for scene_bench in scene_benches) else ""
         head = format_figure_title(f"{title}: run time against error{message}", 110)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
@@ -66,19 +64,23 @@ def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_st
 
 
 def _select_marker(method: str) -> str:
-    """Return the matplotlib marker of a method."""
+    """Return the matplotlib marker of a method, gudgeon's own or a cross-check such as "scipy:DOP853"."""
     return CHECKS.get(method) or MARKERS[method]
 
 
 def _select_colour(method: str) -> str:
-    """Return the colour of a method; cross-checks have one for each package."""
+    """Return the colour of a method; all cross-checks of a package have the same one."""
     if method in CHECKS:
         return LIGHT[method.partition(":")[0]]
     return COLOURS[list(MARKERS).index(method) % len(COLOURS)]
 
 
 def _draw_scene(time_axes: Axes, rhs_axes: Axes, scene_bench: SceneBench) -> None:
-    """Draw the largest errors of one scene over run time (left axes) and right-hand sides or samples (right)."""
+    """Draw the largest errors of one scene over the run time of the window and over right-hand sides, with log scales.
+
+    Without right-hand sides (dof = 0), they are over the number of samples. Failed rows and zero errors are left out.
+    Errors that the references do not resolve have hollow markers, below a shaded band.
+    """
     for method in scene_bench.methods:
         rows = [row for row in scene_bench.list_rows(method) if not row.failure and row.error.largest > 0]
         errors = [row.error.largest for row in rows]
@@ -103,7 +105,7 @@ def _draw_scene(time_axes: Axes, rhs_axes: Axes, scene_bench: SceneBench) -> Non
 
 
 def _is_resolved(scene_bench: SceneBench, row: Row) -> bool:
-    """Return whether the largest error of a row is resolved by the references; True without references."""
+    """Return whether the largest error measure of a row is resolved by the references; True without references."""
     return (
         any(
             getattr(row.error, m) == row.error.largest and scene_bench.is_resolved(m, row.error.largest)
@@ -114,19 +116,19 @@ def _is_resolved(scene_bench: SceneBench, row: Row) -> bool:
 
 
 def _mark_rk4_step(time_axes: Axes, rhs_axes: Axes, step: float, scene_bench: SceneBench) -> None:
-    """Draw a ring around the row of rk4 with this step (s), and its errors above the right axes.
+    """Draw a ring around the points of rk4 with this step (s), and write its force error above the right axes.
 
-    A failed row has its failure there; a step that was not measured draws nothing.
+    A failed row has the time of its failure there, without a ring. A step that was not measured draws nothing.
     """
     row = scene_bench.find_row(Setting("rk4", step))
     if row is None:
         return
     if row.failure or not row.error.largest > 0:
-        text = f"rk4, {format_seconds(step)}: fails at {format_seconds(row.failed_at)}"
+        text = f"rk4, {format_seconds(step)}: failed at {format_seconds(row.failed_at)}"
         rhs_axes.set_title(text, loc="right", fontsize=8.5, color=_select_colour("rk4"))
         return
     for ax, x in ((time_axes, row.seconds * scene_bench.t_end * 1e3), (rhs_axes, row.right_hand_sides)):
         ax.plot([x], [row.error.largest], "o", ms=12, mfc="none", mec=IDEAL, mew=1.2, zorder=4)
-    text = f"rk4, {format_seconds(step)}: forces off by {format_fraction(row.error.force)}"
-    text += f", {scene_bench.contact / step:.1f} steps a contact" if math.isfinite(scene_bench.contact) else ""
+    text = f"rk4, {format_seconds(step)}: force error {format_fraction(row.error.force)}"
+    text += f", {scene_bench.contact / step:.1f} steps per contact" if math.isfinite(scene_bench.contact) else ""
     rhs_axes.set_title(text, loc="right", fontsize=8.5, color=_select_colour("rk4"))

@@ -1,4 +1,4 @@
-"""Print and write the results of `gudgeon map --box`: numbers of stable and failed runs, the worst points, CSV."""
+"""Print and write the results of `gudgeon map --box`: counts of verdicts, the worst points, a CSV table, a figure."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from gudgeon.language.text_output import format_path, print_json
 from gudgeon.studies.map import VerdictBox
 from gudgeon.studies.show.map import (
     COLOURS,
-    FULL,
-    SIGNS,
+    FULL_FORMULATION_NOTE,
+    VERDICT_SIGNS,
     describe_comparison,
     describe_interruption,
     list_cell_rows,
@@ -25,7 +25,7 @@ from gudgeon.studies.show.tables import (
     format_fraction,
     format_seconds,
     make_console,
-    make_table,
+    make_rich_table,
     write_table_and_figure,
 )
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
@@ -41,11 +41,10 @@ _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 def report_box(
     source: KernelSource, mechanism: str, boxes: Sequence[VerdictBox], table_path: Path, as_json: bool = False
 ) -> None:
-    """Print the verdicts of `gudgeon map --box` (with `as_json` as JSON), and write the table as CSV and the figure
-    next to it.
+    """Write the verdicts of `gudgeon map --box` as a CSV table and a figure next to it, and print a summary.
 
-    mechanism: name or file as typed, for the commands that repeat runs. An OutputError for a file is raised after
-    printing.
+    mechanism: name or file as typed, for the commands that repeat runs. as_json: print JSON instead. An OutputError for
+    a file is raised after printing.
     """
     rows = [row for box in boxes for row in list_cell_rows(box)]
 
@@ -64,8 +63,9 @@ def report_box(
 def _print_box(
     source: KernelSource, mechanism: str, boxes: Sequence[VerdictBox], written_paths: Sequence[Path], as_json: bool
 ) -> None:
-    """Print counts, tables of verdicts, the worst points with their commands, and written files; or one JSON
-    document.
+    """Print for each box the counts and the table of verdicts and the worst points with the commands that repeat them.
+
+    The written files follow. With `as_json` it prints one JSON document with the rows of the CSV table instead.
     """
     if as_json:
         rows = [row for one in boxes for row in list_cell_rows(one)]
@@ -81,22 +81,25 @@ def _print_box(
     out = make_console()
     for box in boxes:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
-        title = f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} a point: {edges}"
+        title = f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} per point: {edges}"
         out.print(title + describe_interruption(box), style="bold")
         if box.full:
-            out.print(f"  {FULL}")
+            out.print(f"  {FULL_FORMULATION_NOTE}")
         out.print(f"  {describe_verdict_counts(box.cells)}")
         out.print(f"  {describe_comparison(box)}")
         out.print(_build_verdict_table(box.cells))
         if worst := select_worst_cells(box.cells):
-            out.print("  the worst points, and what runs them again")
+            out.print("  the worst points, and the commands that repeat them")
             print_failures(out, mechanism, box, worst)
     for path in written_paths:
         out.print(f"wrote {format_path(path)}")
 
 
 def describe_verdict_counts(cells: Sequence[Cell]) -> str:
-    """Return the numbers of points by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
+    """Return the number of points of each verdict: "28 points: 27 stable, 1 outside the model; slowest 0.3 s".
+
+    "slowest" is the longest processor time of a long run.
+    """
     counts = Counter(cell.status for cell in cells)
     message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
     slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
@@ -104,9 +107,9 @@ def describe_verdict_counts(cells: Sequence[Cell]) -> str:
 
 
 def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
-    """Return groups (status, reason, cells) of cells with equal verdict and reason without its numbers.
+    """Return the cells in groups (status, reason, cells) of equal verdict and equal reason without its numbers.
 
-    The worst verdict comes first, then the largest group.
+    Groups are sorted by verdict, the worst first, then by size, the largest first.
     """
     groups: dict[tuple[Status, str], list[Cell]] = {}
     for cell in cells:
@@ -116,14 +119,17 @@ def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
 
 
 def remove_numbers(reason: str) -> str:
-    """Return a reason without the numbers of its run, so that equal reasons of several runs can be grouped."""
+    """Return a reason with "…" for numbers and cut before " at t = " or ": ", as a key that equal reasons share.
+
+    "no step is small enough at t = 0.3 s" becomes "no step is small enough".
+    """
     return _NUMBER.sub("…", re.split(r",? at t = |: ", reason)[0]).strip(", ")
 
 
 def select_worst_cells(cells: Sequence[Cell]) -> list[Cell]:
-    """Return at most MAX_WORST_POINTS failed cells, one of each reason before a second of any.
+    """Return at most MAX_WORST_POINTS failed cells, in turn one from each group of equal reason, the worst group first.
 
-    Without failures they are the MAX_WORST_POINTS // 2 cells with the largest errors, largest first.
+    Without failed cells they are the MAX_WORST_POINTS // 2 cells with the largest errors, largest first.
     """
     if not any(cell.failed for cell in cells):
         finite_cells = [cell for cell in cells if math.isfinite(cell.error.largest)]
@@ -134,12 +140,12 @@ def select_worst_cells(cells: Sequence[Cell]) -> list[Cell]:
 
 
 def _build_verdict_table(cells: Sequence[Cell]) -> Table:
-    """Return the table of verdicts and reasons with the number of points and the largest error."""
+    """Return the rich table of verdicts: for each verdict and reason the number of points and the largest error."""
     from rich.text import Text
 
-    table = make_table(("verdict", "points", "largest error", "reason"), left_aligned=("verdict", "reason"))
+    table = make_rich_table(("verdict", "points", "largest error", "reason"), left_aligned=("verdict", "reason"))
     for status, reason, cells_of_group in group_cells(cells):
         errors = [cell.error.largest for cell in cells_of_group if math.isfinite(cell.error.largest)]
-        sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])
+        sign = Text(f"{VERDICT_SIGNS[status]} {status.value}", COLOURS[status])
         table.add_row(sign, str(len(cells_of_group)), format_fraction(max(errors, default=math.nan)), reason)
     return table

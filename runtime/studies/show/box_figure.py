@@ -1,4 +1,4 @@
-"""Draw the figure of `gudgeon map --box`: which points in the box of parameters are stable."""
+"""Draw the figure of `gudgeon map --box`: scatter plot and parallel coordinates of the verdicts in a parameter box."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from gudgeon.studies.verdicts import SEVERITY, Status
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# darker than the fills of a map: markers are small
-LOOK = {
+# colour and marker of each verdict; darker than the fills of a map, since markers are small
+MARKER_STYLES = {
     Status.STABLE: ("#009E73", "o"),
     Status.OUTSIDE: ("#8a8a8a", "D"),
     Status.INACCURATE: ("#E69F00", "^"),
@@ -35,10 +35,10 @@ LOOK = {
 
 
 def draw_box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
-    """Return the figure of `gudgeon map --box` with a row for each box.
+    """Return the figure of `gudgeon map --box` with a row of axes for each box (scene).
 
-    The left axes show verdicts over the two most decisive ranges, the right ones (for more than two ranges) lines
-    across all ranges.
+    The left axes are a scatter plot over the two ranges that correlate most with the verdict. With more than two
+    ranges, the right axes show parallel coordinates.
     """
     wide = max(len(box.ranges) for box in boxes) > 2
     with matplotlib.rc_context(STYLE):
@@ -49,19 +49,23 @@ def draw_box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
             if wide:
                 _draw_parallel_coordinates(row[1], box)
         used = [s for s in reversed(SEVERITY) if any(cell.status is s for box in boxes for cell in box.cells)]
-        handles = [Line2D([], [], color=LOOK[s][0], marker=LOOK[s][1], ls="", ms=6, label=s.value) for s in used]
+        handles = [
+            Line2D([], [], color=MARKER_STYLES[s][0], marker=MARKER_STYLES[s][1], ls="", ms=6, label=s.value)
+            for s in used
+        ]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
         message = " (partial: interrupted)" if any(box.interrupted for box in boxes) else ""
-        head = format_figure_title(f"{title}: where does it fail?{message}", 125 if wide else 75)
+        head = format_figure_title(f"{title}: verdicts in the box{message}", 125 if wide else 75)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
     return picture
 
 
 def rank_ranges(box: VerdictBox) -> list[int]:
-    """Return the indices of the ranges, the one first whose logarithm correlates most with the verdict.
+    """Return the indices of the ranges, sorted by the correlation of their logarithm with the verdict, largest first.
 
-    If all verdicts agree, the largest error is used instead. Cells that are not judged do not count.
+    If all verdicts are equal, the logarithm of the largest error is used instead of the verdict. Cells that are not
+    judged do not count.
     """
     verdicts = [-SEVERITY.index(cell.status) for cell in box.cells]
     errors = [
@@ -69,32 +73,33 @@ def rank_ranges(box: VerdictBox) -> list[int]:
         for cell in box.cells
     ]
     judged = np.array([cell.status is not Status.MISSING for cell in box.cells])
-    worth = np.array(verdicts if len(set(np.array(verdicts)[judged])) > 1 else errors, dtype=np.float64)
-    is_used = judged & np.isfinite(worth)
+    response = np.array(verdicts if len(set(np.array(verdicts)[judged])) > 1 else errors, dtype=np.float64)
+    is_used = judged & np.isfinite(response)
     scores = [
-        _compute_abs_correlation(np.log([point[range_.name] for point in box.points])[is_used], worth[is_used])
+        _compute_abs_correlation(np.log([point[range_.name] for point in box.points])[is_used], response[is_used])
         for range_ in box.ranges
     ]
     return sorted(range(len(box.ranges)), key=lambda k: -scores[k])
 
 
 def _compute_abs_correlation(x: Array, y: Array) -> float:
-    """Return the magnitude of the correlation of two arrays; 0 for fewer than two points, or if one of them is
-    constant.
-    """
+    """Return the magnitude of the correlation coefficient of two arrays; 0 for fewer than two points or a constant."""
     if len(x) < 2 or not np.ptp(x) or not np.ptp(y):
         return 0.0
     return float(abs(np.corrcoef(x, y)[0, 1]))
 
 
 def _sort_by_severity(box: VerdictBox) -> list[int]:
-    """Return the indices of the points with the worst verdict last, so that it is drawn on top."""
+    """Return the indices of the points, sorted from the best to the worst verdict, which is thus drawn on top."""
     return sorted(range(len(box.cells)), key=lambda k: -SEVERITY.index(box.cells[k].status))
 
 
 def _select_marker_style(box: VerdictBox, k: int) -> dict[str, Any]:
-    """Return the arguments of `scatter` for point k by its verdict; corners of the box are larger and have an edge."""
-    colour, marker = LOOK[box.cells[k].status]
+    """Return the keyword arguments of `scatter` for point k: colour and marker by its verdict, size and edge.
+
+    Corners of the box, the first 2^n points, are larger and have a dark edge.
+    """
+    colour, marker = MARKER_STYLES[box.cells[k].status]
     corner = k < 2 ** len(box.ranges)
     return {
         "c": [colour],
@@ -106,12 +111,15 @@ def _select_marker_style(box: VerdictBox, k: int) -> dict[str, Any]:
 
 
 def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
-    """Draw the points of a box over its two most decisive ranges, or over the only range and the largest error."""
+    """Draw a scatter plot of the points of a box over the two first ranges of `rank_ranges`.
+
+    For a box of one range the vertical axis is the largest error.
+    """
     order = rank_ranges(box)
     across = box.ranges[order[0]]
     up = box.ranges[order[1]] if len(order) > 1 else None
     for z, k in enumerate(_sort_by_severity(box)):
-        error = max(box.cells[k].error.largest, 1e-16)  # NaN stays: nothing is drawn where there is no error
+        error = max(box.cells[k].error.largest, 1e-16)  # NaN stays NaN, and the point is not drawn
         ax.scatter(
             [box.points[k][across.name]],
             [box.points[k][up.name] if up else error],
@@ -125,13 +133,13 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
         ylabel=_format_range_label(up) if up else "largest error",
     )
     ax.set_title(
-        f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} a point\n"
+        f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} per point\n"
         f"{describe_verdict_counts(box.cells).partition(';')[0]}",
         loc="left",
     )
     if len(box.ranges) > 2:
         ax.annotate(
-            "the two ranges that tell most; the worst on top",
+            "the two ranges with the largest correlation; the worst verdicts on top",
             (0.0, -0.2),
             xycoords="axes fraction",
             fontsize=8,
@@ -141,21 +149,23 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
 
 
 def _draw_parallel_coordinates(ax: Axes, box: VerdictBox) -> None:
-    """Draw a vertical axis for each range of a box, and for each point a line across all of them in its verdict's
-    colour.
+    """Draw the parallel coordinates of a box: a vertical axis for each range, and a line across all axes for each
+    point.
+
+    A line has the colour of its verdict; failed points have thicker lines.
     """
     logs = [(math.log(range_.low), math.log(range_.high)) for range_ in box.ranges]
     for z, k in enumerate(_sort_by_severity(box)):
-        shares = [
+        fractions = [
             (math.log(box.points[k][range_.name]) - low) / ((high - low) or 1.0)
             for range_, (low, high) in zip(box.ranges, logs, strict=True)
         ]
         status = box.cells[k].status
         failed = status in (Status.DIVERGED, Status.INACCURATE)
         ax.plot(
-            range(len(shares)),
-            shares,
-            color=LOOK[status][0],
+            range(len(fractions)),
+            fractions,
+            color=MARKER_STYLES[status][0],
             lw=1.3 if failed else 0.7,
             alpha=0.9 if failed else 0.35,
             zorder=2 + z / 1e4,
@@ -168,11 +178,11 @@ def _draw_parallel_coordinates(ax: Axes, box: VerdictBox) -> None:
         ax.annotate(
             format_quantity(range_.high, range_.unit, 3), (k, 1.05), ha="center", fontsize=8, annotation_clip=False
         )
-    ax.set_title("a line a point, across all ranges\n", loc="left")
+    ax.set_title("one line per point, over all ranges\n", loc="left")
     ax.grid(False)
     ax.spines[:].set_visible(False)
 
 
 def _format_range_label(range_: Range) -> str:
-    """Return the last two parts of a range's address, with its unit, as a label of an axis."""
+    """Return the label of the axis of a range: the last two parts of its address, with its unit."""
     return format_label(".".join(range_.name.split(".")[-2:]), format_unit(range_.unit))

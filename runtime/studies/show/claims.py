@@ -1,4 +1,4 @@
-"""Show the claims of a study on its page: published numbers and trends, one a row, next to the study's own."""
+"""Build the sections of a report on the claims of a study: tables of published numbers and trends, and figures."""
 
 from __future__ import annotations
 
@@ -21,27 +21,28 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
     from gudgeon.studies.show.study_data import StudyData
 
-Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
-LOG_SCALE_RATIO = 30.0  # times the least, from which on an axis of values is logarithmic
-SHORT, MAX_LINES = 22, 4  # characters of a line of where a number was taken, and lines, that stand under it
+Row = Mapping[str, Any]  # row of a table of claims, for one claim and one ensemble
+LOG_SCALE_RATIO = 30.0  # ratio of the largest to the smallest magnitude above which the axis is logarithmic
+MAX_TICK_LINE_LENGTH, MAX_TICK_LINES = 22, 4  # maximum length (characters) and number of coordinates of a tick label
 NOTE = "note"
-NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of claims without one
+NUMBERS, TRENDS = "Published numbers", "Published trends"  # headings of claims without a heading
+UNPUBLISHED = "Computed only"  # heading of numbers that were not published
 
 
 def build_claims_sections(study: Study, parts: Mapping[str, StudyData], page_figures: PageFigures) -> list[Section]:
-    """Return the sections of a page on the claims of a study: published numbers with figures, trends, headings of the
-    file.
+    """Return the sections (heading, HTML) of a report on the claims of a study: numbers with figures, and trends.
 
-    parts: data of the study's parts. page_figures: receives the figures. Empty for a study without claims.
+    There is a section for each heading of `_order_headings`. parts: data of the study's parts by name. page_figures:
+    the figures are registered there. Empty for a study without claims.
     """
     try:
         claims = study.claims
-    except GudgeonError:  # its file makes no claims
+    except GudgeonError:  # the study file has no claims
         return []
     claim_names = _ClaimNames(parts)
     numbers, trends = (list(_group_by_claim(table.to_dict("records"))) for table in (claims.numbers, claims.trends))
     source = build_paragraphs([claims.source] * bool(claims.source), "g-quiet")
-    number_headings = [_choose_heading(rows[0], NUMBERS if _is_published(rows[0]) else ALONE) for rows in numbers]
+    number_headings = [_choose_heading(rows[0], NUMBERS if _is_published(rows[0]) else UNPUBLISHED) for rows in numbers]
     trend_headings = [_choose_heading(rows[0], TRENDS) for rows in trends]
     sections = []
     for k, heading in enumerate(_order_headings(number_headings + trend_headings)):
@@ -68,41 +69,40 @@ def build_claims_sections(study: Study, parts: Mapping[str, StudyData], page_fig
 
 
 def _is_published(row: Row) -> bool:
-    """Return whether a number was published: it has a printed value or belongs to a figure."""
+    """Return whether a number was published: it has a printed value, or names a figure of the publication."""
     return not _is_missing(row["printed"]) or bool(row["figure"])
 
 
 def _choose_heading(row: Row, default: str) -> str:
-    """Return the heading under which a claim is shown, or the default if it has none."""
+    """Return the heading of the claim in the study file, or `default` if it has none."""
     return str(row.get("heading") or default)
 
 
 def _order_headings(headings: list[str]) -> list[str]:
-    """Return the headings without repetitions: published numbers, trends, those of the file in order, unpublished
-    numbers.
-    """
-    other_headings = [name for name in dict.fromkeys(headings) if name not in (NUMBERS, TRENDS, ALONE)]
-    return [name for name in (NUMBERS, TRENDS, *other_headings, ALONE) if name in headings]
+    """Return the headings without repetitions: NUMBERS, TRENDS, those of the study file in order, UNPUBLISHED."""
+    other_headings = [name for name in dict.fromkeys(headings) if name not in (NUMBERS, TRENDS, UNPUBLISHED)]
+    return [name for name in (NUMBERS, TRENDS, *other_headings, UNPUBLISHED) if name in headings]
 
 
 class _ClaimNames:
-    """Names and locations of claims for display."""
+    """Texts that describe claims for display: titles, scenes and coordinates of their cells of runs."""
 
     def __init__(self, parts: Mapping[str, StudyData]) -> None:
-        """Store the data of the parts, by name; titles are those of the first part."""
+        """Store the data of the parts by name ("" for a file without parts); titles are those of the first part."""
         self.parts = parts
         self.get_title = next(iter(parts.values())).get_title
 
     def describe_cell(self, row: Row) -> str:
-        """Return the coordinates of a number's cell in words: "c = 0.3 mm"; the stored text in folders of earlier
-        versions.
+        """Return the coordinates of a number's cell of runs in words, with titles: "c = 0.3 mm, ω = 2π rad/s".
+
+        In a folder of an earlier version it is the stored text.
         """
-        if "place" not in row:  # a folder that an earlier version judged
+        if "place" not in row:  # a folder of an earlier version
             return str(row["at"])
         return self.parts[str(row["part"])].describe_cell(json.loads(str(row["place"])))
 
     def find_scene_title(self, row: Row) -> str:
-        """Return the title of the scene of a number's part if it has only one, else ""."""
+        """Return the title of the scene of a number's part; "" if the part is unknown or has several scenes."""
         scene_coordinate = (
             self.parts[str(row["part"])].dataset.coords.get("scene") if str(row["part"]) in self.parts else None
         )
@@ -113,7 +113,7 @@ class _ClaimNames:
         )
 
     def describe_number(self, row: Row) -> str:
-        """Return a description of a number: the text of the claim, or measure, part and coordinates."""
+        """Return a description of a number: its statement `says`, else its measure, part and coordinates."""
         part = [self.get_title(row["part"])] * bool(row["part"])
         return str(row["says"]) or ", ".join(
             filter(None, (self.get_title(row["measure"]), *part, self.describe_cell(row)))
@@ -121,7 +121,7 @@ class _ClaimNames:
 
 
 def _group_by_claim(rows: Iterable[Row]) -> Iterator[list[Row]]:
-    """Yield for each claim its rows, one for every ensemble, in the order of first appearance."""
+    """Yield for each claim the list of its rows, one for every ensemble; claims in the order of their first rows."""
     claims: dict[str, list[Row]] = {}
     for row in rows:
         claims.setdefault(str(row["claim"]), []).append(row)
@@ -129,20 +129,19 @@ def _group_by_claim(rows: Iterable[Row]) -> Iterator[list[Row]]:
 
 
 def _list_ensembles(claims: list[list[Row]]) -> list[str]:
-    """Return the names of all ensembles of the claims, without repetitions."""
+    """Return the names of all ensembles of the claims, without repetitions; empty if no claim has a named one."""
     return list(dict.fromkeys(str(row["ensemble"]) for rows in claims for row in rows if row["ensemble"]))
 
 
 def _format_number_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
-    """Return the HTML table of published numbers: printed value, median and quartiles of each ensemble, deviation,
-    note.
+    """Return the HTML table of published numbers with a footnote: printed value, medians and quartiles, deviation.
 
-    Without ensembles there is one column for all runs. Below the table stands a footnote.
+    claims: a list of rows for each claim. There is a column for each ensemble, or one for all runs without ensembles.
     """
     ensembles = _list_ensembles(claims) or [""]
-    ours = (f"ours, {claim_names.get_title(name)}" if name else "ours" for name in ensembles)
-    head = ["", "figure", "what", "printed", *ours, "off by", "note"]
-    footnote = ["ours: median (quartiles); off by: of the medians from what is printed"]
+    computed = (f"computed, {claim_names.get_title(name)}" if name else "computed" for name in ensembles)
+    head = ["", "figure", "number", "printed", *computed, "deviation", "note"]
+    footnote = ["computed: median (quartiles); deviation: of the medians, relative to the printed value"]
     every = (
         _format_number_cells(rows, ensembles, claim_names, *_choose_unit(_select_claims_of_same_measure(claims, rows)))
         for rows in claims
@@ -151,21 +150,23 @@ def _format_number_table(claims: list[list[Row]], claim_names: _ClaimNames) -> s
 
 
 def _select_claims_of_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list[list[Row]]:
-    """Return the claims with the same figure and measure as the claim of `claim_rows`; they share a unit."""
+    """Return the claims with the same figure and measure as the claim of `claim_rows`, which share its display unit."""
     return [rows for rows in claims if all(rows[0][key] == claim_rows[0][key] for key in ("figure", "measure"))]
 
 
 def _choose_unit(claims: list[list[Row]]) -> tuple[float, str]:
-    """Return factor and text of the unit that suits the largest value of these claims."""
+    """Return the factor from SI and the text of the display unit for the largest value of these claims."""
     return choose_plot_unit(max(map(_find_largest_magnitude, claims)), str(claims[0][0]["unit"]))
 
 
 def _format_number_cells(
     rows: list[Row], ensembles: list[str], claim_names: _ClaimNames, factor: float, unit: str
 ) -> list[str]:
-    """Return the cells of a published number: claim, figure, description, printed value, medians, deviation, note.
+    """Return the texts of a table row of a published number: claim, figure, description, printed, medians, deviation,
+    note.
 
-    rows: one for each ensemble. ensembles: their names, with a column each. factor, unit: of all values.
+    rows: one for each ensemble. ensembles: names of the columns; a claim without ensembles has its median in the first.
+    factor, unit: display unit, factor from SI. The deviation is the range over the ensembles, in %.
     """
     first, row_by_ensemble = rows[0], {str(row["ensemble"]): row for row in rows}
     printed = "–" if _is_missing(first["printed"]) else _append_unit(first["printed"] * factor, unit)
@@ -188,9 +189,10 @@ def _format_number_cells(
 
 
 def _format_unpublished_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
-    """Return the HTML table of unpublished numbers: a row for each cell of runs with all its measures.
+    """Return the HTML table of unpublished numbers with a footnote: a row for each statement or cell of runs.
 
-    A value that the claim compares with another one (`beside`) has the deviation from it in %.
+    It has a column for each measure. A number that is compared with another number (key `beside`) has the deviation
+    from it in %.
     """
     measures = list(dict.fromkeys(str(rows[0]["measure"]) for rows in claims))
     cells_by_key: dict[tuple[str, str], dict[str, str]] = {}
@@ -199,24 +201,24 @@ def _format_unpublished_table(claims: list[list[Row]], claim_names: _ClaimNames)
         first = rows[0]
         factor, unit = units[str(first["measure"])]
         deviation = "" if _is_missing(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
-        what = str(first["says"]) or claim_names.describe_cell(first), claim_names.get_title(first["part"])
-        cells_by_name = cells_by_key.setdefault(what, {})
+        key = str(first["says"]) or claim_names.describe_cell(first), claim_names.get_title(first["part"])
+        cells_by_name = cells_by_key.setdefault(key, {})
         cells_by_name[str(first["measure"])] = _format_median_cell(first, factor, unit) + deviation
         cells_by_name[NOTE] = "; ".join(filter(None, (cells_by_name.get(NOTE), str(first.get("note") or ""))))
-    footnote = ["median (quartiles), and how far it is off from the row that it stands beside"]
+    footnote = ["median (quartiles), and its deviation from the number with which it is compared"]
     cells = (
-        [*what, *(cells_by_name.get(name, "") for name in (*measures, NOTE))]
-        for what, cells_by_name in cells_by_key.items()
+        [*key, *(cells_by_name.get(name, "") for name in (*measures, NOTE))]
+        for key, cells_by_name in cells_by_key.items()
     )
     return _format_table_without_empty_columns(
-        ["what", "part", *map(claim_names.get_title, measures), NOTE], cells
+        ["number", "part", *map(claim_names.get_title, measures), NOTE], cells
     ) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
 def _format_median_cell(row: Row | None, factor: float, unit: str) -> str:
-    """Return median and quartiles of a row, times `factor`, with unit; only the value for one run.
+    """Return the table cell of a row: "1.2 mm (1.1 … 1.4)", median and quartiles; the value alone for one run.
 
-    "" for None (no such ensemble), "–" if no run has the measure.
+    factor: from SI to `unit`. "" for None (the claim lacks the ensemble), "–" if no run has the measure.
     """
     if row is None:
         return ""
@@ -227,24 +229,27 @@ def _format_median_cell(row: Row | None, factor: float, unit: str) -> str:
 
 
 def _append_unit(value: float, unit: str) -> str:
-    """Return a value with four digits and its unit, without a line break between them."""
+    """Return a value with four digits and its unit, joined by a no-break space, or by nothing for degrees."""
     return f"{value:.4g}{'' if unit == '°' else chr(160)}{unit}".strip()
 
 
 def _format_table_without_empty_columns(head: list[str], rows: Iterable[list[str]]) -> str:
-    """Return an HTML table without the columns that have a head but no text in any row."""
+    """Return an HTML table without the columns that have no text in any row; a column without a head stays."""
     every = list(rows)
     kept = [k for k, name in enumerate(head) if not name or any(row[k] for row in every)]
     return build_table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
 
 
 def _format_trend_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
-    """Return the HTML table of trends with verdict, probability and note, and a footnote that defines them."""
-    head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
+    """Return the HTML table of trends with verdict, probability and note, and a footnote that defines the columns.
+
+    claims: a list of rows for each claim.
+    """
+    head = ["", "figure", "trend", "verdict", "probability", "one run shows it", "note"]
     footnote = [
-        "probability: that the next run shows it, the least of all that the trend says, with the interval in which"
-        " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
-        " 0.8 or above, fails: at 1/3 or below, undecided: neither"
+        "probability: that a further run satisfies the trend, the smallest of all its conditions, with the confidence"
+        " interval (5 % beyond each end), for each ensemble; verdict: holds if the interval of all runs lies at 0.8 or"
+        " above, fails if it lies at 1/3 or below, else undecided"
     ]
     return _format_table_without_empty_columns(
         head, (_format_trend_cells(rows, claim_names) for rows in claims)
@@ -252,13 +257,14 @@ def _format_trend_table(claims: list[list[Row]], claim_names: _ClaimNames) -> st
 
 
 def _format_trend_cells(rows: list[Row], claim_names: _ClaimNames) -> list[str]:
-    """Return the cells of the table row of a trend; `rows` has one row for each ensemble.
+    """Return the texts of the table row of a trend: claim, figure, statement, verdict, probabilities, note.
 
-    If ensembles contradict each other, the verdict lists that of each.
+    rows: one for each ensemble. If the ensembles disagree, the verdict is "ensembles disagree" with the verdict of
+    each.
     """
     first = rows[0]
     each = ", ".join(f"{claim_names.get_title(row['ensemble'])} {row['alone']}" for row in rows)
-    verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
+    verdict = str(first["verdict"]) if first["agreed"] else f"ensembles disagree: {each}"
     odds = (
         _join_distinct(map(_format_probability_cell, rows)),
         _join_distinct(_format_probability(row["chance"]) for row in rows),
@@ -267,7 +273,7 @@ def _format_trend_cells(rows: list[Row], claim_names: _ClaimNames) -> list[str]:
 
 
 def _format_probability_cell(row: Row) -> str:
-    """Return a probability, with its interval in brackets if the interval has a width."""
+    """Return a probability with its interval, "0.9 (0.8 … 1)", or alone if the interval has no width or is missing."""
     message = _format_probability(row["probability"])
     if _is_missing(row["low"]) or row["low"] == row["high"]:
         return message
@@ -275,28 +281,30 @@ def _format_probability_cell(row: Row) -> str:
 
 
 def _format_probability(value: Any) -> str:
-    """Return a probability with two digits, "–" for None or NaN."""
+    """Return a probability as text with two digits; "–" for None or NaN."""
     return "–" if _is_missing(value) else f"{value:.2g}"
 
 
 def _join_distinct(values: Iterable[str]) -> str:
-    """Return texts joined by commas, or only one of them if all are equal."""
+    """Return texts joined by commas, or a single one if all are equal; "" without texts."""
     shown = list(values)
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
 def _iterate_claim_figures(claims: list[list[Row]], claim_names: _ClaimNames) -> Iterator[CaptionedFigure]:
-    """Yield caption and drawing function for each figure and measure of the publication, in the order of the claims.
+    """Yield caption and drawing function for each pair of figure and measure of the publication, in the order of
+    claims.
 
-    Claims without a figure have none.
+    Claims without a figure are left out.
     """
     groups: dict[tuple[str, str], list[list[Row]]] = {}
     for rows in claims:
         if rows[0]["figure"]:
             groups.setdefault((str(rows[0]["figure"]), str(rows[0]["measure"])), []).append(rows)
     for (figure, measure), claim_rows in groups.items():
-        printed = "ours alone" if all(_is_missing(rows[0]["printed"]) for rows in claim_rows) else "printed and ours"
-        yield f"{figure}: {claim_names.get_title(measure)}, {printed}", partial(_draw_claims, claim_rows, claim_names)
+        has_printed = not all(_is_missing(rows[0]["printed"]) for rows in claim_rows)
+        contents = "printed and computed" if has_printed else "computed"
+        yield f"{figure}: {claim_names.get_title(measure)}, {contents}", partial(_draw_claims, claim_rows, claim_names)
 
 
 def _draw_claims(claims: list[list[Row]], claim_names: _ClaimNames) -> Axes:
@@ -315,7 +323,7 @@ def _draw_claims(claims: list[list[Row]], claim_names: _ClaimNames) -> Axes:
     names = _list_ensembles(claims) or [""]
     with matplotlib.rc_context(STYLE):
         ax = create_axes(5.6, 3.2)
-        for j, name in enumerate([*names, *[""] * (names != [""])]):  # and what is in no ensemble
+        for j, name in enumerate([*names, *[""] * (names != [""])]):  # then the numbers without an ensemble
             rows_of_ensemble = [
                 (k, row)
                 for k, rows in enumerate(claims)
@@ -338,7 +346,7 @@ def _draw_claims(claims: list[list[Row]], claim_names: _ClaimNames) -> Axes:
                 ms=3.5,
                 capsize=2.0,
                 lw=1.0,
-                label=claim_names.get_title(name) if name else "ours" if names == [""] else "ours, one run",
+                label=claim_names.get_title(name) if name else "computed" if names == [""] else "computed, one run",
             )
         printed = [rows[0]["printed"] * factor for rows in claims if not _is_missing(rows[0]["printed"])]
         printed_positions = [k for k, rows in enumerate(claims) if not _is_missing(rows[0]["printed"])]
@@ -363,12 +371,16 @@ def _draw_claims(claims: list[list[Row]], claim_names: _ClaimNames) -> Axes:
 
 
 def _format_tick_label(row: Row, claim_names: _ClaimNames, with_scene: bool) -> str:
-    """Return the label of a claim at the axis, on several lines: name, with `with_scene` the scene, and short
-    coordinates.
+    """Return the tick label of a claim on the horizontal axis, one line each: its name, its scene, its coordinates.
+
+    The scene is left out unless `with_scene`, or if its part has several scenes. All coordinates are left out if one is
+    longer than MAX_TICK_LINE_LENGTH characters or there are more than MAX_TICK_LINES.
     """
     coordinate_texts = claim_names.describe_cell(row).split(", ")
     coordinates = (
-        coordinate_texts if max(map(len, coordinate_texts)) <= SHORT and len(coordinate_texts) <= MAX_LINES else []
+        coordinate_texts
+        if max(map(len, coordinate_texts)) <= MAX_TICK_LINE_LENGTH and len(coordinate_texts) <= MAX_TICK_LINES
+        else []
     )
     return "\n".join(
         filter(None, (str(row["claim"]), claim_names.find_scene_title(row) if with_scene else "", *coordinates))
@@ -376,7 +388,7 @@ def _format_tick_label(row: Row, claim_names: _ClaimNames, with_scene: bool) -> 
 
 
 def _find_largest_magnitude(rows: list[Row]) -> float:
-    """Return the largest magnitude of the printed value and the medians of a claim; 0 if it has none."""
+    """Return the largest magnitude (SI) of the printed value and the medians of a claim; 0 if it has none."""
     values = (rows[0]["printed"], *(row["median"] for row in rows))
     return max((abs(value) for value in values if not _is_missing(value)), default=0.0)
 

@@ -20,7 +20,7 @@ from gudgeon.studies.show.tables import (
     format_fraction,
     format_seconds,
     make_console,
-    make_table,
+    make_rich_table,
     write_table_and_figure,
 )
 from gudgeon.studies.verdicts import Cell, Status
@@ -38,22 +38,28 @@ COLOURS = {
     Status.DIVERGED: "red",
     Status.MISSING: "bright_black",
 }
-FULL = "integrated in the full formulation (absolute coordinates): the gains act there alone"
-SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗", Status.MISSING: "·"}
-PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
+FULL_FORMULATION_NOTE = "integrated in the full formulation (absolute coordinates), the only one with gains"
+VERDICT_SIGNS = {
+    Status.STABLE: "✓",
+    Status.OUTSIDE: "○",
+    Status.INACCURATE: "≈",
+    Status.DIVERGED: "✗",
+    Status.MISSING: "·",
+}
+PRESSURE_UNITS = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # derived units for parameters that have base units only
 # meaning of the first word of a cell's label; printed if a cell has it
-LABELS = {
-    "at": "at: when the run failed",
-    "energy": "energy: residual, or it comes from nowhere",
-    "motion": "motion: coordinates off by, of the size",
-    "force": "force: a joint's force off by, of its peak",
-    "path": "path: a journal's path off by, of the clearance",
-    "through": "through: a journal left its bearing",
-    "lost": "lost: a contact was",
-    "|Φ|": "|Φ|: constraints open",
-    "?": "?: the finer run fails",
+LABEL_MEANINGS = {
+    "at": "at: time at which the run failed",
+    "energy": "energy: energy residual",
+    "motion": "motion: error of the coordinates, relative to the mechanism's size",
+    "force": "force: error of a joint force, relative to its peak",
+    "path": "path: error of a journal path, relative to the clearance",
+    "through": "through: a journal passed through its bearing",
+    "lost": "lost: a contact was missed",
+    "|Φ|": "|Φ|: constraints violated",
+    "?": "?: the finer run failed",
     "–": "–: not judged",
-    "δ": "δ: penetration beyond half the clearance or a hundredth of the bearing's radius",
+    "δ": "δ: penetration above half the clearance or a hundredth of the bearing radius",
 }
 
 
@@ -65,10 +71,10 @@ def report_map(
     marked_step: float | None,
     as_json: bool = False,
 ) -> None:
-    """Print the maps of `gudgeon map` (with `as_json` as JSON), and write the table as CSV and the figure next to it.
+    """Write the maps of `gudgeon map` as a CSV table and a figure next to it, and print them (as JSON with `as_json`).
 
-    mechanism: name or file as typed, for the commands that repeat runs. marked_step (s): step that is marked, or None.
-    An OutputError for a file is raised after printing.
+    mechanism: name or file as typed, for the commands that repeat runs. marked_step (s): row of this step that is
+    marked; None for none. An OutputError for a file is raised after printing.
     """
     rows = [row for verdict_map in maps for row in list_cell_rows(verdict_map)]
 
@@ -92,8 +98,9 @@ def _print_maps(
     marked_step: float | None,
     as_json: bool,
 ) -> None:
-    """Print the maps with stability limits or failures, legend, the marked step and written files; or one JSON
-    document.
+    """Print each map with its stability limits or failed runs, the legend, the marked step and the written files.
+
+    With `as_json` it prints one JSON document with the rows of the CSV table instead.
     """
     if as_json:
         rows = [row for verdict_map in maps for row in list_cell_rows(verdict_map)]
@@ -109,19 +116,19 @@ def _print_maps(
     out = make_console()
     for verdict_map in maps:
         title = (
-            f"{verdict_map.scene}, {verdict_map.setting.method}: sane over {format_seconds(verdict_map.t_long)}, "
+            f"{verdict_map.scene}, {verdict_map.setting.method}: checked over {format_seconds(verdict_map.t_long)}, "
             f"{describe_comparison(verdict_map)}"
         )
         out.print(title + describe_interruption(verdict_map), style="bold")
         if verdict_map.full:
-            out.print(f"  {FULL}")
+            out.print(f"  {FULL_FORMULATION_NOTE}")
         if verdict_map.columns.ratios:
-            out.print(f"  {verdict_map.rows.name} down, {verdict_map.columns.name} across")
+            out.print(f"  rows: {verdict_map.rows.name}, columns: {verdict_map.columns.name}")
         out.print(_build_map_table(verdict_map))
         if verdict_map.rows.name == "step":
             out.print(_build_boundary_table(verdict_map))
         elif failures := [cell for cell in verdict_map.cells if cell.failed]:
-            out.print("  what failed, and what runs it again")
+            out.print("  failed runs, and the commands that repeat them")
             print_failures(out, mechanism, verdict_map, failures)
     out.print(make_legend(maps))
     for line in explain_labels(maps).splitlines():
@@ -133,27 +140,31 @@ def _print_maps(
 
 
 def _build_map_table(verdict_map: VerdictMap) -> Table:
-    """Return the table of a map; each cell has the sign of its verdict and its label."""
+    """Return the rich table of a map: a row for each value of the row axis; cells have verdict sign and label."""
     from rich.text import Text
 
     heads = [format_axis_value(verdict_map.columns, x) for x in verdict_map.columns.values]
-    table = make_table([verdict_map.rows.name, *heads])
+    table = make_rich_table([verdict_map.rows.name, *heads])
     for row in verdict_map.rows.values:
         cells = (verdict_map.get_cell(row, x) for x in verdict_map.columns.values)
-        marked = (Text(f"{SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
+        marked = (Text(f"{VERDICT_SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
         table.add_row(format_axis_value(verdict_map.rows, row), *marked)
     return table
 
 
 def _build_boundary_table(verdict_map: VerdictMap) -> Table:
-    """Return the table of the largest stable step for each column, with the fault of the next longer step."""
+    """Return the rich table of stability limits: the largest stable step of each column, and the fault of the next
+    step.
+
+    It is called for maps whose rows are steps.
+    """
     name = verdict_map.columns.name
-    table = make_table((name, "largest stable step", "the next one"), left_aligned=("the next one",))
+    table = make_rich_table((name, "largest stable step", "next step"), left_aligned=("next step",))
     for x in verdict_map.columns.values:
         largest = verdict_map.find_largest_stable_row(x)
         next_step = next((step for step in verdict_map.rows.values if not step <= largest), None)
         cell = verdict_map.get_cell(next_step, x) if next_step is not None else None
-        after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "the grid ends"
+        after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "none on the axis"
         table.add_row(
             format_axis_value(verdict_map.columns, x), format_seconds(largest) if largest == largest else "none", after
         )
@@ -161,38 +172,39 @@ def _build_boundary_table(verdict_map: VerdictMap) -> Table:
 
 
 def print_failures(console: Console, mechanism: str, verdicts: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
-    """Print the reasons of cells and the command that repeats each, on one line so that it can be copied.
+    """Print for each cell its reason and, on one line without wrapping, the shell command that repeats the run.
 
-    mechanism: name or file as typed. A cell without a reason is shown with its largest error.
+    mechanism: name or file as typed. verdicts: the map or box of the cells. A cell without a reason is printed with its
+    largest error.
     """
-    laws = list_law_files()
+    laws = list_typed_law_files()
     for cell in cells:
         specified = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
-        console.print(f"  {SIGNS[cell.status]} {specified}", markup=False, emoji=False)
+        console.print(f"  {VERDICT_SIGNS[cell.status]} {specified}", markup=False, emoji=False)
         again = format_run_command(mechanism, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
         console.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
 def describe_interruption(verdicts: VerdictMap | VerdictBox) -> str:
-    """Return the part of a title that says how many runs were finished before Ctrl-C; "" if it was not interrupted."""
+    """Return " (partial: interrupted after 3 of 8 runs)" for a title; "" for a sweep that Ctrl-C did not interrupt."""
     return " (partial: interrupted after {} of {} runs)".format(*verdicts.done) if verdicts.interrupted else ""
 
 
 def make_legend(verdicts: Sequence[VerdictMap | VerdictBox]) -> Text:
-    """Return the signs and names of all verdicts in colour; "not judged" only after Ctrl-C."""
+    """Return one line of coloured text with sign and name of each verdict; "not judged" only after Ctrl-C."""
     from rich.text import Text
 
     shown = [s for s in Status if s is not Status.MISSING or any(verdict_map.interrupted for verdict_map in verdicts)]
-    return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
+    return Text("   ").join(Text(f"{VERDICT_SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
 def format_run_command(
     mechanism: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
 ) -> str:
-    """Return the shell command that repeats the run of a cell: `gudgeon run` with scene, setting, parameters and end
-    time.
+    """Return the quoted shell command that repeats the run of a cell: `gudgeon run` with scene, setting and parameters.
 
-    mechanism: name or file as typed. full: in the full formulation. laws: files of user-defined laws.
+    mechanism: name or file as typed. t_end (s): end of the run. full: in the full formulation. laws: files of
+    user-defined laws.
     """
     words = ["gudgeon", "run", f"./{mechanism}" if mechanism.startswith("-") else mechanism, "--scene", scene]
     words += [
@@ -209,9 +221,10 @@ def format_run_command(
     return shlex.join([*words, "--t-end", repr(t_end)])
 
 
-def list_law_files() -> list[str]:
-    """Return the files of the registered user-defined laws, as they were typed; laws registered otherwise are left
-    out.
+def list_typed_law_files() -> list[str]:
+    """Return the files of the registered user-defined laws as the command line has them; other laws are left out.
+
+    Laws that Python code registered have no such file.
     """
     from gudgeon.generator.kinds.laws.registered import ORIGINS
 
@@ -219,10 +232,11 @@ def list_law_files() -> list[str]:
 
 
 def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) -> list[str]:
-    """Return a line for each map over steps on the marked step: counts of its verdicts, and the step that suits all
-    columns.
+    """Return a line for each map over steps: the verdicts at the marked step, and the largest step that is stable
+    everywhere.
 
-    Empty without a marked step, or if no map has it.
+    That is the minimum over the columns of the largest stable step. Maps without the marked step are left out; empty
+    for None.
     """
     lines = []
     for verdict_map in (s for s in maps if s.rows.name == "step"):
@@ -235,18 +249,16 @@ def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) 
         counts = Counter(cell.status for cell in cells)
         message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
         best = [x for x in map(verdict_map.find_largest_stable_row, verdict_map.columns.values) if x == x]
-        shortest = format_seconds(min(best)) if len(best) == len(cells) else "below the grid"
+        shortest = format_seconds(min(best)) if len(best) == len(cells) else "none on the axis"
         lines.append(
             f"step {format_seconds(step)}, {verdict_map.scene}: of {len(cells)} columns {message}; "
-            f"a step for all: {shortest}"
+            f"largest step that is stable in all columns: {shortest}"
         )
     return lines
 
 
 def list_cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
-    """Return the rows of the CSV and JSON files: for each cell its setting, parameters, verdict, errors and times
-    (SI).
-    """
+    """Return the rows of the CSV and JSON files, one per cell: setting, parameters, verdict, errors, times (SI)."""
     return [
         {
             "scene": verdicts.scene,
@@ -268,8 +280,10 @@ def list_cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
 
 
 def format_axis_value(axis: Axis, x: float) -> str:
-    """Return a value of an axis as text: the word of a choice, a clearance in mm, a tolerance, or a quantity with its
-    unit.
+    """Return a value of an axis as text: a word of a choice, "0.3 mm" for a clearance, "1e-8" for rtol, else a
+    quantity.
+
+    x: value in SI, or the index of a word. Other quantities have three digits and a suitable unit.
     """
     if axis.words:
         return axis.words[int(x)]
@@ -277,24 +291,25 @@ def format_axis_value(axis: Axis, x: float) -> str:
         return format_clearance(x)
     if axis.name == "rtol":
         return str(Setting("auto", x))
-    return format_seconds(x) if axis.unit == "s" else format_quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
+    return format_seconds(x) if axis.unit == "s" else format_quantity(x, PRESSURE_UNITS.get(axis.unit, axis.unit), 3)
 
 
 def explain_labels(maps: Sequence[VerdictMap]) -> str:
-    """Return lines with the meaning of the labels that occur in the cells, two explanations in each."""
+    """Return the legend of the labels that occur in the cells of the maps, two explanations on each line."""
     used = {cell.label.split(" ")[0] for verdict_map in maps for cell in verdict_map.cells}
-    message = dict.fromkeys(text for word, text in LABELS.items() if word in used)
-    parts = ["a number: largest error against a finer run, over the time compared", *message]
+    message = dict.fromkeys(text for word, text in LABEL_MEANINGS.items() if word in used)
+    parts = ["a number: largest error relative to a finer run, over the compared time", *message]
     return "\n".join(" · ".join(parts[k : k + 2]) for k in range(0, len(parts), 2))
 
 
 def describe_comparison(verdicts: VerdictMap | VerdictBox) -> str:
-    """Return a text: over which time errors were computed, and against which finer setting.
+    """Return a text on the errors: "errors over the first 20 ms … 30 ms, against a 10× shorter step".
 
-    With dry contacts runs are comparable over the first few contacts only.
+    The times are the shortest and longest window of comparison of the cells. If no cell was compared, the text reports
+    that.
     """
     finer = "a 10× shorter step" if verdicts.setting.has_fixed_step else "a 100× tighter tolerance"
     ends = [cell.compared for cell in verdicts.cells if cell.compared == cell.compared]
     shortest, longest = (format_seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
     over = shortest if shortest == longest else f"{shortest} … {longest}"
-    return f"errors over the first {over}, against {finer}" if ends else f"nothing to compare with {finer}"
+    return f"errors over the first {over}, against {finer}" if ends else f"no run was compared with {finer}"

@@ -1,4 +1,4 @@
-"""Draw the figure of `gudgeon map`: which runs are stable over two varied quantities."""
+"""Draw the figure of `gudgeon map`: a stability map, with the verdict on each run over two varied quantities."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
 def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float | None = None) -> Figure:
-    """Return the figure with a panel for each scene; each cell has the colour of its verdict and its label.
+    """Return the figure with a panel for each map (scene), in which a cell has the colour of its verdict and its label.
 
-    marked_step (s): step whose row gets a frame, or None.
+    title: of the mechanism. marked_step (s): step whose row gets a frame; None for none.
     """
     columns = max(len(verdict_map.columns.values) for verdict_map in maps)
     rows = max(len(verdict_map.rows.values) for verdict_map in maps)
@@ -52,12 +52,13 @@ def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float |
             handles.append(
                 Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {format_seconds(marked_step)}")
             )
-        question = "which step will do?" if maps[0].rows.name == "step" else "where does it fail?"
+        subject = "stable steps" if maps[0].rows.name == "step" else "verdicts on the runs"
         part = " (partial: interrupted)" if any(verdict_map.interrupted for verdict_map in maps) else ""
-        head = format_figure_title(f"{title}: {question}{part}", int(10 * width))
+        head = format_figure_title(f"{title}: {subject}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         over = (
-            f"{verdict_map.scene}: sane over {format_seconds(verdict_map.t_long)}, {describe_comparison(verdict_map)}"
+            f"{verdict_map.scene}: checked over {format_seconds(verdict_map.t_long)}, "
+            f"{describe_comparison(verdict_map)}"
             for verdict_map in maps
         )
         message = "\n".join([explain_labels(maps), *over])
@@ -68,9 +69,9 @@ def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float |
 
 
 def _draw_map(ax: Axes, verdict_map: VerdictMap, marked_step: float | None) -> None:
-    """Draw the cells of one map with ticks and title, and a frame around the row of the marked step (s).
+    """Draw the cells of one map on its axes, with ticks and title, and a frame around the row of the marked step (s).
 
-    None: no frame.
+    marked_step: None for no frame.
     """
     rows, columns = verdict_map.rows.values, verdict_map.columns.values
     for i, y in enumerate(rows):
@@ -91,11 +92,11 @@ def _draw_map(ax: Axes, verdict_map: VerdictMap, marked_step: float | None) -> N
 
 
 def _is_marked(verdict_map: VerdictMap, row: float, step: float | None) -> bool:
-    """Return whether the rows of a map are steps and this row is the marked one; False for None."""
+    """Return whether the rows of a map are steps and `row` equals the marked step to rounding; False for None."""
     return verdict_map.rows.name == "step" and step is not None and math.isclose(row, step)
 
 
 def _draw_cell(ax: Axes, row: int, column: int, cell: Cell) -> None:
-    """Draw one cell at its row and column with the colour of its verdict and its label."""
+    """Draw one cell as a rectangle of unit size at (column, row), in the colour of its verdict with its label."""
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=FILL[cell.status], edgecolor="white", lw=1.5))
     ax.text(column, row, cell.label, ha="center", va="center", fontsize=7.5, color="#333333", zorder=3)

@@ -1,4 +1,4 @@
-"""Place the figures of a study on its page as SVG; large numbers of figures are drawn on all cores."""
+"""Insert the figures of a study into its HTML page as SVG; many figures are drawn by forked processes in parallel."""
 
 from __future__ import annotations
 
@@ -23,41 +23,41 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MAX_FIGURES = 40
-MANY = 12  # figures, from which on it is worth while to begin a process for them
-FEW = 4  # figures, for which no core is taken
-_AROUND = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
+MAX_FIGURES = 40  # of one gallery
+MIN_FIGURES_FOR_PROCESSES = 12  # with fewer figures, no process is started
+MIN_FIGURES_PER_PROCESS = 4
+_NON_SVG = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
 _IDS = re.compile(r'(\bid="|xlink:href="#|url\(#)')
-_PLACE = re.compile(r"<!--picture (\d+)-->")
-CaptionedFigure = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
+_PLACEHOLDER = re.compile(r"<!--picture (\d+)-->")
+CaptionedFigure = tuple[str, Callable[[], "Axes"]]  # caption, and function that draws the figure
 
 
 class PageFigures:
-    """Figures of a page by number: placeholders are written first and replaced when all figures are known."""
+    """The figures of an HTML page: placeholders are written first and replaced when all figures are registered."""
 
     def __init__(self) -> None:
         """Create an empty list of figures."""
         self.figures: list[tuple[str, Callable[[], Axes]]] = []
 
     def add_placeholder(self, name: str, draw_axes: Callable[[], Axes]) -> str:
-        """Register a figure and return its placeholder, an HTML comment; `draw_axes` is called later. `name` must be
-        unique.
+        """Register a figure, which `insert_figures` draws later, and return its placeholder, an HTML comment.
+
+        name: unique prefix of the SVG identifiers.
         """
         self.figures.append((name, draw_axes))
         return f"<!--picture {len(self.figures) - 1}-->"
 
     def insert_figures(self, page: str) -> str:
-        """Draw all registered figures and return the page with their SVG in place of the placeholders."""
+        """Draw all registered figures and return the page (HTML) with their SVG in place of the placeholders."""
         drawn = _draw_in_processes(self.figures)
-        return _PLACE.sub(lambda place: drawn[int(place[1])], page)
+        return _PLACEHOLDER.sub(lambda place: drawn[int(place[1])], page)
 
 
 def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_figures: PageFigures) -> str:
-    """Return an HTML grid of figures with captions; of more than MAX_FIGURES only the first ones and a line on the
-    others.
+    """Return an HTML grid of at most MAX_FIGURES figures with captions, and a line with the number of omitted ones.
 
-    name_prefix: prefix of the figures' names. page_figures: receives the figures, which are drawn later. "" without
-    figures.
+    name_prefix: prefix of the figures' names. page_figures: the figures are registered there and drawn later. ""
+    without figures.
     """
     parts, omitted = [], 0
     for k, (caption, draw_axes) in enumerate(figures):
@@ -71,12 +71,13 @@ def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_fi
 
 
 def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:
-    """Return the SVG of all figures in order.
+    """Draw all figures, (name, drawing function) each, and return their SVG in order.
 
-    Many figures are distributed over forked processes, on Linux and only if this process has no other threads.
+    MIN_FIGURES_FOR_PROCESSES or more figures are distributed over forked processes, on Linux and only if this process
+    has no other threads.
     """
-    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MANY
-    count = min(count_available_threads(), len(figures) // FEW) if forks else 1
+    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MIN_FIGURES_FOR_PROCESSES
+    count = min(count_available_threads(), len(figures) // MIN_FIGURES_PER_PROCESS) if forks else 1
     others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
     drawn = [""] * len(figures)
     try:
@@ -91,20 +92,20 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
 
 
 class _DrawingProcess:
-    """A process that draws some of the figures; if it dies, they are drawn here."""
+    """A forked process that draws some of the figures of a page and sends them through a pipe."""
 
     def __init__(self, figures: list[tuple[str, Callable[[], Any]]]) -> None:
-        """Start a forked process that draws figures, given as pairs of name and drawing function."""
+        """Fork a process that draws figures; each is a pair of name and drawing function."""
         self.figures, context = figures, get_context("fork")
         self.end, begin = context.Pipe(duplex=False)
         self.process = context.Process(target=_send_drawn_figures, args=(begin, figures), daemon=True)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)  # of threads of BLAS, which expect it
+            warnings.simplefilter("ignore", DeprecationWarning)  # of forks with threads: those of BLAS allow forks
             self.process.start()
         begin.close()
 
     def receive_figures(self) -> list[str]:
-        """Wait for the process and return its figures as SVG; if the process died, draw them here."""
+        """Wait for the figures of the process and return them as SVG; draw them here if the process died."""
         try:
             figures: list[str] = self.end.recv()
         except (EOFError, OSError):
@@ -113,14 +114,17 @@ class _DrawingProcess:
 
 
 def _send_drawn_figures(connection: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
-    """Draw figures in the child process and send their SVG as one list; after an error nothing is sent."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
+    """Draw figures in the child process and send their SVG as one list; after an error nothing is sent.
+
+    The child ignores Ctrl-C. The parent draws the figures again after an error, and reports it.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process handles Ctrl-C
     with suppress(Exception):  # errors are reported when the figure is drawn again
         connection.send([_draw_figure(*arguments) for arguments in figures])
 
 
 def _draw_figure(name: str, draw_axes: Callable[[], Axes]) -> str:
-    """Return a figure as SVG, or an HTML line with the reason if it cannot be drawn."""
+    """Draw a figure and return it as SVG; if that raises an error of values, an HTML line "not drawn: …" instead."""
     from gudgeon.results.figures.run_plots import suppress_figure_display
 
     try:
@@ -131,8 +135,9 @@ def _draw_figure(name: str, draw_axes: Callable[[], Axes]) -> str:
 
 
 def _convert_to_svg(ax: Axes, name: str) -> str:
-    """Return the SVG element of the figure of an axes, with text as text, identifiers prefixed by `name`, and no
-    date.
+    """Return the <svg> element of the figure of an axes: reproducible, without a date, with texts as text.
+
+    Identifiers have the prefix `name`, so that several figures fit into one page.
     """
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -143,15 +148,15 @@ def _convert_to_svg(ax: Axes, name: str) -> str:
         canvas = FigureCanvasSVG(figure)
         _apply_layout(figure)
         canvas.print_svg(target, metadata={"Date": None, "Creator": None})
-    svg = _AROUND.sub("", target.getvalue().decode())
-    return _IDS.sub(lambda own: f"{own[1]}{name}-", svg)
+    svg = _NON_SVG.sub("", target.getvalue().decode())
+    return _IDS.sub(lambda match: f"{match[1]}{name}-", svg)
 
 
 def _apply_layout(figure: Figure) -> None:
-    """Apply the layout of a figure once and remove its layout engine, with which `savefig` would draw it twice.
+    """Apply the layout of a figure once and remove its layout engine, which would make `savefig` draw it twice.
 
-    A single axes needs only a margin. With a rectangle, even that of the figure, matplotlib would measure all texts
-    again.
+    A figure with a single axes gets the tight layout without a rectangle, since matplotlib would measure all texts
+    again for one.
     """
     if len(figure.axes) == 1:
         figure.set_layout_engine("tight", rect=None)

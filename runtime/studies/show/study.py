@@ -1,4 +1,4 @@
-"""Print the results of a study, for people and as JSON: numbers of runs, failures, and the spread of each measure."""
+"""Print the results of a study as text or JSON: numbers of runs, failures, quantiles of each measure, claims."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import numpy as np
 
 from gudgeon.files.free_space import format_size
 from gudgeon.language.text_output import escape_invisible, format_count, format_path, print_json
-from gudgeon.studies.ensemble.claim_tables import FILE, read_claims_json
+from gudgeon.studies.ensemble.claim_tables import CLAIMS_FILE, read_claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
-from gudgeon.studies.show.tables import format_seconds, make_console, make_table
+from gudgeon.studies.show.tables import format_seconds, make_console, make_rich_table
 
-MAX_KINDS = 8
-MAX_TRENDS = 16  # trends that are printed one by one
+MAX_FAILURE_KINDS = 8  # reasons of failures that are printed
+MAX_TRENDS = 16  # with more trends, only their totals are printed
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
@@ -31,15 +31,15 @@ def describe_runs(plan: Plan, runs: int) -> str:
 
 
 def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], as_json: bool) -> None:
-    """Print for each part the number of runs, disk space and time that trial runs predict, or one JSON document.
+    """Print for each part the number of runs and the estimated disk space and time; with `as_json` a JSON document.
 
-    estimates: by the name of the part, "" for a file without parts.
+    estimates: by the name of the part, "" for a file without parts. For a file with parts, a line has the totals.
     """
     if as_json:
-        each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.each.items()}
+        each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.by_part.items()}
         print_json({"parts": each} if plans.named else each[""])
         return
-    for name, plan in plans.each.items():
+    for name, plan in plans.by_part.items():
         if name:
             print(f"part {escape_invisible(name)}:")
         _print_estimate(plan, estimates[name])
@@ -55,7 +55,7 @@ def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], as_json: b
 
 
 def _estimate_to_json(plan: Plan, estimate: Estimate) -> dict[str, Any]:
-    """Return dimensions, runs, blocks, bytes, seconds, trial runs and notes of an estimate as JSON data."""
+    """Return the estimate of a part as a mapping for JSON: dimensions, runs, blocks, bytes, seconds, trials, notes."""
     return {
         "dimensions": dict(zip(plan.dims, plan.shape, strict=True)),
         "runs": estimate.runs,
@@ -69,26 +69,29 @@ def _estimate_to_json(plan: Plan, estimate: Estimate) -> dict[str, Any]:
 
 
 def _print_estimate(plan: Plan, estimate: Estimate) -> None:
-    """Print runs, disk space, time, failed trial runs and notes of one part."""
+    """Print runs, disk space, time and notes of one part, and the first reason if trial runs failed."""
     print(f"{describe_runs(plan, estimate.runs)} in {format_count(estimate.blocks, 'block')}")
-    trial = format_count(estimate.tried, "run")
-    print(f"about {format_size(estimate.bytes)} on disk, {_format_duration(estimate.seconds)} by {trial} on trial")
+    trials = format_count(estimate.tried, "trial run")
+    print(f"about {format_size(estimate.bytes)} on disk, {_format_duration(estimate.seconds)}, estimated from {trials}")
     if estimate.failed:
-        print(f"{estimate.failed} of {trial} on trial failed: {escape_invisible(estimate.reasons[0])}")
+        print(f"{estimate.failed} of {trials} failed: {escape_invisible(estimate.reasons[0])}")
     for note in plan.notes:
         print(f"note: {escape_invisible(note)}")
 
 
 def report_studies(plans: Plans, study: Study, as_json: bool) -> None:
-    """Print the measures, failures and notes of all parts of a finished study, and its claims; or one JSON document."""
+    """Print measures, failures and notes of each part of a finished study, then the verdicts on its claims if any.
+
+    With `as_json` it prints one JSON document instead.
+    """
     parts = study.parts or {"": study}
     if as_json:
-        each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.each.items()}
+        each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.by_part.items()}
         whole = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": each}
         claims = read_claims_json(study.folder)
         print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
         return
-    for name, plan in plans.each.items():
+    for name, plan in plans.by_part.items():
         if name:
             print(f"part {escape_invisible(name)}:")
         _print_study(plan, parts[name])
@@ -97,7 +100,7 @@ def report_studies(plans: Plans, study: Study, as_json: bool) -> None:
 
 
 def _convert_study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
-    """Return folder, runs, failures, measures and notes of one part as JSON data."""
+    """Return the results of one part as a mapping for JSON: folder, runs, failures, quantiles of measures, notes."""
     measures = {name: {"unit": unit, **row} for name, unit, row in _iterate_measure_spreads(plan, study)}
     return {
         "folder": str(study.folder),
@@ -112,23 +115,26 @@ def _convert_study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
 
 
 def _print_study(plan: Plan, study: Study) -> None:
-    """Print number of runs, a table of measures, the most frequent failures, notes and the file of one part."""
+    """Print the results of one part: number of runs, quantiles of the measures, frequent failures, notes, its file.
+
+    At most MAX_FAILURE_KINDS reasons of failures are printed, each with the full message of its first run.
+    """
     spread = {name: (unit, row) for name, unit, row in _iterate_measure_spreads(plan, study)}
     print(describe_runs(plan, study.runs))
     if spread:
-        table = make_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
+        table = make_rich_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
         for name, (unit, row) in spread.items():
             numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
             table.add_row(escape_invisible(name), *numbers, unit, str(row["nan"]))
         make_console().print(table)
     if study.failed:
         print(f"{study.failed} of {format_count(study.runs, 'run')} failed:")
-        for kind, count, message in itertools.islice(StudyData(study).iterate_failures(), MAX_KINDS):
+        for kind, count, message in itertools.islice(StudyData(study).iterate_failures(), MAX_FAILURE_KINDS):
             print(
                 f"  {count} × {escape_invisible(kind)}"
                 + f"\n    the first: {escape_invisible(message)}" * bool(message)
             )
-        if (more := len(study.failures) - MAX_KINDS) > 0:
+        if (more := len(study.failures) - MAX_FAILURE_KINDS) > 0:
             print(f"  and {more} other reasons")
     for note in study.notes:
         print(f"note: {escape_invisible(note)}")
@@ -136,27 +142,34 @@ def _print_study(plan: Plan, study: Study) -> None:
 
 
 def _print_claims(study: Study) -> None:
-    """Print the verdict of each trend unless there are more than MAX_TRENDS, totals, and the deviation from printed
-    numbers.
+    """Print the judged claims of a study: a line "T1 holds: statement" for each trend, then totals and the file.
+
+    With more than MAX_TRENDS trends only the totals are printed: trends by verdict, and the median deviation from the
+    printed numbers. A trend on which ensembles disagree has "ensembles disagree" in place of its verdict. The study
+    must have claims.
     """
     claims = study.claims
     trends = claims.trends
     if len(trends):
-        message = {
-            name: claim_rows["verdict"].iloc[0] if claim_rows["agreed"].all() else "not the same in all ensembles"
+        verdicts = {
+            name: claim_rows["verdict"].iloc[0] if claim_rows["agreed"].all() else "ensembles disagree"
             for name, claim_rows in trends.groupby("claim", sort=False)
         }
-        if len(message) <= MAX_TRENDS:
-            says = trends.drop_duplicates("claim").set_index("claim")["says"]
-            print(
-                "\n".join(f"{name} {verdict}: {escape_invisible(str(says[name]))}" for name, verdict in message.items())
+        if len(verdicts) <= MAX_TRENDS:
+            statements = trends.drop_duplicates("claim").set_index("claim")["says"]
+            lines = (
+                f"{name} {verdict}: {escape_invisible(str(statements[name]))}" for name, verdict in verdicts.items()
             )
+            print("\n".join(lines))
     print("\n".join(map(escape_invisible, claims.totals())))
-    print(f"wrote {format_path(Path(study.folder) / FILE)}")
+    print(f"wrote {format_path(Path(study.folder) / CLAIMS_FILE)}")
 
 
 def _iterate_measure_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Yield name, unit and spread of each measure over all runs: a dict of min, median, max, nan (their number)."""
+    """Yield name, SI unit and statistics of each measure over all finite values: a dict of min, median, max and nan.
+
+    `nan` is the number of runs without a finite value. Without any finite value the quantiles are NaN.
+    """
     for name in (measure.name for measure in plan.run_settings.measures):
         values = study.dataset[name].values
         finite_values = values[np.isfinite(values)]
@@ -168,7 +181,7 @@ def _iterate_measure_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, st
 
 
 def _format_duration(value: float) -> str:
-    """Return a duration (s) as text in days, h, min, or a shorter unit."""
+    """Return a duration (s) as text, in days, h or min from twice that unit on, else as `format_seconds`: "3.5 h"."""
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if value >= 2 * factor:
             return f"{value / factor:.3g} {unit}"

@@ -1,4 +1,4 @@
-"""Select results of a study for figures and pages by parameter values, with units and Poincaré section points."""
+"""Select runs of a study's dataset by coordinate values, and describe coordinates, for figures and pages."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ if TYPE_CHECKING:
 
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"
-MOST_TICKS, MOST_LETTERS = 8, 40  # values at an axis; letters of the text of a zip's index
-MANY_COLUMNS, MOST_SAID = 4, 60  # parameters of a zip from which on only differences are shown; their letters
-MANY = ("start", "draw", "ensemble")  # dimensions over which statistics are computed
+MAX_WRITTEN_TICKS = 8  # values at an axis that are written as in the file
+MAX_ZIP_TEXT_LENGTH = 40  # characters of the values at an index of a zip
+MIN_COLUMNS_FOR_CHANGES = 4  # with so many parameters of a zip, only differences are displayed
+MAX_CHANGES_LENGTH = 60  # characters of the differences at an index of a zip
+POOLED_DIMENSIONS = ("start", "draw", "ensemble")  # dimensions over which statistics are computed
 
 
 class StudyData:
-    """The dataset of a study, accessed by names. Raises UnknownNameError with the nearest name."""
+    """The dataset of a study with titles, accessed by names. Raises UnknownNameError with the nearest known name."""
 
     def __init__(self, study: Study) -> None:
         """Read the dataset, titles and texts of a study."""
@@ -43,7 +45,7 @@ class StudyData:
 
     @property
     def stored_series(self) -> tuple[str, ...]:
-        """Return the names of the stored series."""
+        """Return the names of the stored series: the variables over samples, except the sample times `t`."""
         return tuple(
             str(name)
             for name, variable in self.dataset.data_vars.items()
@@ -55,9 +57,10 @@ class StudyData:
         return str(self.dataset[name].attrs.get("units", ""))
 
     def select_measure(self, name: str, coordinates: Coords | None = None) -> Any:
-        """Return a measure as a DataArray, restricted to the runs at these coordinates; None means all runs.
+        """Return a measure as a DataArray, restricted to the runs at these coordinates.
 
-        Raises UnknownNameError.
+        coordinates: {name: value}, the nearest value for a number; None means all runs. Raises UnknownNameError for an
+        unknown measure or coordinate.
         """
         if check_text(name, "a measure", "the name of a measure") not in self.study.measures:
             raise make_missing_name_error(f"the study has no measure {name!r}", name, self.study.measures)
@@ -66,17 +69,17 @@ class StudyData:
     def find_claimed_numbers(
         self, name: str, axis_dimension: str, line_dimension: str | None, coordinates: Coords | None, axis_name: str
     ) -> list[tuple[float, float, int]]:
-        """Return the printed numbers of a measure in a figure: position on the axis, value (SI), index of the line.
+        """Return the published numbers of a measure as points of a figure: (axis position, value in SI, line index).
 
-        line_dimension: None gives the index −1. coordinates: selected runs, {name: value}. axis_name: coordinate along
-        `axis_dimension` that has the positions. Claims about fewer runs than a point of the figure pools are left out,
-        since they do not compare with its median. Empty without claims.
+        line_dimension: dimension of the lines; None gives the index −1. coordinates: selected runs, {name: value}.
+        axis_name: coordinate along `axis_dimension` with the positions. A claim that fixes a coordinate over which the
+        figure takes the median is left out. Empty without claims.
         """
         try:
             numbers = self.study.claims.numbers
-        except GudgeonError:  # it claims nothing
+        except GudgeonError:  # the study file has no claims
             return []
-        if "place" not in numbers:  # nothing, or a folder that an earlier version judged
+        if "place" not in numbers:  # no numbers, or a folder of an earlier version
             return []
         claims_of_measure = numbers[(numbers["measure"] == name) & numbers["printed"].notna()].drop_duplicates("claim")
         variable, selected, positions = self.dataset[name], dict[str, int](), self.describe_axis(axis_name)[0]
@@ -103,12 +106,13 @@ class StudyData:
         ]
 
     def select_series(self, name: str, coordinates: Coords | None = None) -> tuple[Any, Any]:
-        """Return times and a stored series (…, N) of the runs at these coordinates; None means all runs.
+        """Return sample times (s) and a stored series, a DataArray (…, N), of the runs at these coordinates.
 
-        Times are (N,) if all runs share them, else (…, N). Raises UnknownNameError.
+        Times are (N,) if all selected runs share them, else (…, N). coordinates: None means all runs. Raises
+        UnknownNameError for a series that was not stored.
         """
-        if check_text(name, "a series", "the name of a kept series") not in self.stored_series:
-            raise make_missing_name_error(f"the study kept no series {name!r}", name, self.stored_series)
+        if check_text(name, "a series", "the name of a stored series") not in self.stored_series:
+            raise make_missing_name_error(f"the study stored no series {name!r}", name, self.stored_series)
         values = self._select_runs(self.dataset[name], coordinates)
         if OWN_TIMES not in self.dataset:
             return self.dataset["time"].values, values
@@ -120,9 +124,9 @@ class StudyData:
         return t, values
 
     def _select_runs(self, variable: Any, coordinates: Coords | None) -> Any:
-        """Return a variable restricted to the runs at these coordinates, the nearest value for a number.
+        """Return a variable (DataArray) restricted to the runs at these coordinates, {name: value}; None: all runs.
 
-        None: all runs.
+        A number selects the nearest value of its coordinate. Each selected dimension is removed.
         """
         for name, value in check_mapping(coordinates, "at", "expected {coordinate: value}").items():
             dimension = self.find_dimension(variable, name)
@@ -139,14 +143,15 @@ class StudyData:
             return name
         if name in self.dataset.dims or name in self.dataset.coords:
             over = [str(dim) for dim in self.dataset[name].dims if dim in known_dims]
-            if len(over) == 1:  # a number of a zip or a draw
+            if len(over) == 1:  # a parameter of a zip or a draw
                 return over[0]
-            raise BadValueError(f"{name} does not vary over the runs that are shown")
+            raise BadValueError(f"{name} does not vary over the selected runs")
         raise _make_dimension_error(name, known_dims)
 
     def find_nearest_index(self, name: str, value: Any) -> int:
-        """Return the index of a value of a coordinate: of the equal text, else UnknownNameError; or of the nearest
-        number.
+        """Return the index at which a coordinate has a value: the equal text, or the nearest number (SI).
+
+        Raises UnknownNameError for a text that the coordinate does not have.
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
@@ -157,24 +162,27 @@ class StudyData:
         return int(np.abs(values - check_number(value, name)).argmin())
 
     def choose_axis_dimension(self, variable: Any) -> str:
-        """Return the default dimension for the axis of a measure: the first with numbers, else one with texts.
+        """Return the default dimension for the horizontal axis of a measure: the first with numbers, else one of texts.
 
-        Starts and draws have no order, so they are used only if there is no other dimension. Raises BadValueError for
-        a single run.
+        Of several dimensions of texts, scenes are the last choice. Starts, draws and ensembles are used only if there
+        is no other dimension. Raises BadValueError for a single run.
         """
         dims = [str(dim) for dim in variable.dims]
-        numbers = [dim for dim in dims if dim not in MANY and self._is_number(dim)]
+        numbers = [dim for dim in dims if dim not in POOLED_DIMENSIONS and self._is_number(dim)]
         if not dims:
-            raise BadValueError("the study has one run here: there is nothing to draw it over")
-        words = [dim for dim in dims if dim not in MANY]
+            raise BadValueError("a single run is selected: a figure over a coordinate needs several")
+        words = [dim for dim in dims if dim not in POOLED_DIMENSIONS]
         return next(iter(numbers), next((dim for dim in words if dim != "scene"), next(iter(words), dims[0])))
 
     def is_ordered_number(self, name: str) -> bool:
-        """Return whether a coordinate is an ordered number, so that a line may connect its values."""
-        return self._is_number(name) and name not in MANY and not self._is_zip(name)
+        """Return whether the values of a coordinate are ordered numbers, so that a line may connect them.
+
+        It is False for texts, starts, draws, ensembles and indices of zips.
+        """
+        return self._is_number(name) and name not in POOLED_DIMENSIONS and not self._is_zip(name)
 
     def _is_zip(self, name: str) -> bool:
-        """Return whether a coordinate is the index of a zip of parameters."""
+        """Return whether a coordinate is the index of a `zip`, along which several parameters vary together."""
         return str(self.dataset[name].attrs.get("long_name", "")).startswith("place in zip")
 
     def _is_number(self, dimension: str) -> bool:
@@ -182,17 +190,16 @@ class StudyData:
         return self.dataset[dimension].values.dtype.kind in "fiu"
 
     def choose_line_dimension(self, variable: Any, axis_dimension: str) -> str | None:
-        """Return the default dimension whose values are separate lines of a figure over `axis_dimension`: scenes, else
-        the first with texts.
+        """Return the default dimension whose values are separate lines of a figure over `axis_dimension`.
 
-        None if there is neither.
+        It is the scenes, else the first dimension of texts; None if there is neither.
         """
         dims = [str(dim) for dim in variable.dims if dim != axis_dimension]
         words = [dim for dim in dims if not self._is_number(dim)]
         return "scene" if "scene" in dims else next(iter(words), None)
 
     def split_runs(self, variable: Any, dimension: str | None) -> list[tuple[str, Any]]:
-        """Return pairs of label and runs for each value of a dimension; "" and all runs for None."""
+        """Return a pair (label, DataArray of its runs) for each value of a dimension; [("", variable)] for None."""
         if dimension is None:
             return [("", variable)]
         words, _ = self.format_value_labels(dimension, with_name=True)
@@ -205,15 +212,16 @@ class StudyData:
         return values.reshape(-1, *values.shape[len(others) :])
 
     def describe_axis(self, name: str) -> tuple[Any, str, list[str] | None]:
-        """Return the positions of a coordinate's values on an axis, the label of the axis, and texts for its ticks.
+        """Return the positions of a coordinate's values on an axis, the label of the axis, and tick texts or None.
 
-        Texts have positions 0, 1, …; numbers are in a suitable unit and have None instead of texts.
+        Texts have positions 0, 1, …. Numbers are scaled to a suitable unit; they have tick texts if the file writes at
+        most MAX_WRITTEN_TICKS values, and for a zip.
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
             return np.arange(len(values)), self.get_title(name), [self.get_title(value) for value in values]
         factor, shown = choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.get_unit(name))
-        ticks = list(self.get_written_values(name)) if len(values) <= MOST_TICKS else []
+        ticks = list(self.get_written_values(name)) if len(values) <= MAX_WRITTEN_TICKS else []
         return (
             values * factor,
             format_label(self.get_title(name), "" if ticks else shown),
@@ -221,7 +229,7 @@ class StudyData:
         )
 
     def find_axis_position(self, name: str, value: Any) -> float:
-        """Return the position of a value on the axis of a coordinate, among those of `describe_axis`.
+        """Return the position of a value (a text, or a number in SI) on the axis that `describe_axis` describes.
 
         Raises UnknownNameError for an unknown text.
         """
@@ -233,9 +241,10 @@ class StudyData:
         )
 
     def format_value_labels(self, dimension: str, with_name: bool = False) -> tuple[list[str], str]:
-        """Return a text for each value of a dimension, and the label of the dimension.
+        """Return a text for each value of a dimension, and the label of the dimension with its unit.
 
-        with_name: "c = 0.3 mm" instead of "0.3", for numbers. Values are written as in the file if possible.
+        with_name: numbers as "c = 0.3 mm" instead of "0.3". Texts have their titles, indices of a zip the values of its
+        parameters. Values are written as in the file if possible.
         """
         values = self.dataset[dimension].values
         if values.dtype.kind in "OU":
@@ -253,22 +262,21 @@ class StudyData:
         return words, format_label(self.get_title(dimension), unit)
 
     def get_written_values(self, name: str) -> tuple[str, ...]:
-        """Return the values of a coordinate as the file writes them, with units; empty if the file does not list
-        them.
-        """
+        """Return the values of a coordinate with units, as in the study file; empty if it does not list them."""
         texts = self.texts.get(name, ())
         return texts if len(texts) == np.size(self.dataset[name].values) else ()
 
     def describe_coordinate(self, name: str, value: Any) -> str:
-        """Return a selected coordinate in words: "scene = without oil", or the nearest number: "c = 0.3 mm"."""
+        """Return a selected coordinate in words: "scene = without oil", or with the nearest number "c = 0.3 mm"."""
         word = self.format_value_labels(name, with_name=True)[0][self.find_nearest_index(name, value)]
         return word if word.startswith(f"{self.get_title(name)} = ") else f"{self.get_title(name)} = {word}"
 
     def _describe_zip(self, dimension: str) -> list[str] | None:
-        """Return for each index of a zip (parameters that vary together) their values in words.
+        """Return for each index of a zip the values of its parameters in words: "0.1 mm, 300 rpm".
 
-        If that text is too long, it has only values that differ from the most frequent one. None for another
-        dimension, and if neither text is short and unique.
+        With MIN_COLUMNS_FOR_CHANGES parameters or texts that are too long, a text has only the parameters that differ
+        from their most frequent value (`describe_changes`). None for a dimension that is not a zip, or if the texts are
+        too long or not unique.
         """
         if not self._is_zip(dimension):
             return None
@@ -281,23 +289,22 @@ class StudyData:
                 )
         whole = [", ".join(row) for row in zip(*columns, strict=True)]
         for words, most in (
-            (whole, MOST_LETTERS if len(columns) < MANY_COLUMNS else 0),
-            (describe_changes(columns), MOST_SAID),
+            (whole, MAX_ZIP_TEXT_LENGTH if len(columns) < MIN_COLUMNS_FOR_CHANGES else 0),
+            (describe_changes(columns), MAX_CHANGES_LENGTH),
         ):
             if words and max(map(len, words)) <= most and len(set(words)) == len(words):
                 return words
         return None
 
     def describe_cell(self, indices: Mapping[str, int]) -> str:
-        """Return a cell in words from its indices by dimension: "c = 0.3 mm, ω = 2π rad/s"."""
+        """Return a cell in words, from its index along each dimension: "c = 0.3 mm, ω = 2π rad/s"."""
         labelled_indices = ((name, k, self.format_value_labels(name, with_name=True)[0]) for name, k in indices.items())
         return ", ".join(words[k] for _, k, words in labelled_indices)
 
     def iterate_failures(self) -> Iterator[tuple[str, int, str]]:
-        """Yield each kind of failure, its number of runs, and a text with coordinates and message of the first of
-        them.
+        """Yield for each kind of failure (kind, number of runs, coordinates and message of the first failed run).
 
-        The text is "" in a folder of an earlier version.
+        The most frequent kind is first. The last text is "" in a folder of an earlier version.
         """
         if not (kinds := self.study.failures):
             return
@@ -322,10 +329,10 @@ class StudyData:
         min_time: float,
         coordinates: Coords | None,
     ) -> list[tuple[tuple[int, ...], list[Any]]]:
-        """Return for each selected run its index, and the values of other series where `section` crosses a level.
+        """Return the Poincaré section of each selected run: pairs of its index and [values (k,) of each other series].
 
-        names: of the other series. level: SI. is_falling: crossings from above instead of from below. min_time (s):
-        earlier crossings are left out. coordinates None: all runs.
+        section: name of the series that rises through `level` (SI); is_falling: falls instead. names: of the other
+        series. min_time (s): earlier crossings are left out. coordinates: {name: value}; None means all runs.
         """
         t, section_series = self.select_series(section, coordinates)
         others = [self.select_series(name, coordinates)[1].values for name in names]
@@ -348,23 +355,20 @@ class StudyData:
         return sections
 
     def iterate_spreads(self, name: str) -> Iterator[tuple[dict[str, str], Any]]:
-        """Yield for each combination of coordinates their texts, and the values of a measure over starts and draws
-        there.
-        """
+        """Yield for each combination of coordinates ({dimension: text}, values of a measure over POOLED_DIMENSIONS)."""
         variable = self.dataset[name]
-        dims = [str(dim) for dim in variable.dims if dim not in MANY]
+        dims = [str(dim) for dim in variable.dims if dim not in POOLED_DIMENSIONS]
         words = {dim: self.format_value_labels(dim)[0] for dim in dims}
-        values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in MANY)).values
+        values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in POOLED_DIMENSIONS)).values
         for where in np.ndindex(values.shape[: len(dims)]):
             yield {dim: words[dim][k] for dim, k in zip(dims, where, strict=True)}, np.ravel(values[where])
 
 
 def describe_changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
-    """Return for each index of a zip the parameters that differ from the most frequent value, as a text; or
-    "unchanged".
+    """Return for each index of a zip a text of the parameters that differ from their most frequent value: "c = 1 mm".
 
-    columns: texts of a parameter's values → its title. Empty if a parameter has no value at more than half of the
-    indices.
+    The text is "unchanged" if no parameter differs. columns: texts of a parameter's values → its title. The list is
+    empty if a parameter has no value that occurs at more than half of the indices.
     """
     most_frequent = {column: Counter(column).most_common(1)[0] for column in columns}
     if any(2 * count <= len(column) for column, (_, count) in most_frequent.items()):
@@ -378,5 +382,5 @@ def describe_changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
 
 
 def _make_dimension_error(name: str, known_names: list[str]) -> UnknownNameError:
-    """Return the error for an unknown dimension, with the nearest known name."""
-    return make_missing_name_error(f"the runs that are shown have no dimension {name!r}", name, tuple(known_names))
+    """Return the error for an unknown dimension, with the nearest known name as hint."""
+    return make_missing_name_error(f"the selected runs have no dimension {name!r}", name, tuple(known_names))

@@ -22,24 +22,24 @@ from gudgeon.results.reports.html_page import (
 )
 from gudgeon.studies.show.claims import build_claims_sections
 from gudgeon.studies.show.pictures import CaptionedFigure, PageFigures, format_gallery
-from gudgeon.studies.show.study_data import MANY, StudyData
+from gudgeon.studies.show.study_data import POOLED_DIMENSIONS, StudyData
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
-MAX_ROWS, MOST_NUMBERS, MOST_SAMPLES = 500, 30_000_000, 20_000
-SHOWN_VALUES = 8  # of what varied, in full
+MAX_ROWS, MAX_SERIES_VALUES, MAX_SERIES_SAMPLES = 500, 30_000_000, 20_000  # of tables, and of series in figures
+MAX_SHOWN_VALUES = 8  # values of a coordinate that are listed
 
 
 @dataclass(frozen=True)
 class StudyReport:
-    """The report of a finished study: `to_html` is a self-contained page, notebooks display the same."""
+    """The report of a finished study: `to_html` returns a self-contained page, notebooks display its sections."""
 
     study: Study
 
     def to_html(self) -> str:
-        """Return the report as a self-contained HTML file, with its figures as SVG."""
-        parts, page_figures = _load_parts(self.study), PageFigures()
+        """Return the report as the text of a self-contained HTML page, with its figures as SVG."""
+        parts, page_figures = _read_part_data(self.study), PageFigures()
         first = next(iter(parts.values()))
         sections = list(_iterate_sections(self.study, parts, page_figures))
         chapters = _list_chapters(sections, parts) if len(parts) > 1 else ()
@@ -47,18 +47,21 @@ class StudyReport:
 
     def _repr_html_(self) -> str:
         """Return the report as an HTML fragment for a notebook, which calls this method."""
-        parts, page_figures = _load_parts(self.study), PageFigures()
+        parts, page_figures = _read_part_data(self.study), PageFigures()
         title = f"<h1>{escape_line(next(iter(parts.values())).title)}</h1>"
         return page_figures.insert_figures(build_article(_iterate_sections(self.study, parts, page_figures), title))
 
 
-def _load_parts(study: Study) -> dict[str, StudyData]:
-    """Return the data of each part by its name; the whole study under "" if it has no parts."""
+def _read_part_data(study: Study) -> dict[str, StudyData]:
+    """Return the data of each part by its name; the key is "" for a study without parts."""
     return {name: StudyData(part) for name, part in (getattr(study, "parts", None) or {"": study}).items()}
 
 
 def _iterate_sections(study: Study, parts: dict[str, StudyData], page_figures: PageFigures) -> Iterator[Section]:
-    """Yield heading and HTML of all sections: the summary, the claims, then those of each part."""
+    """Yield heading and HTML of all sections of a report: summary, claims, then the sections of each part.
+
+    The figures are registered in `page_figures` and drawn later.
+    """
     yield "In short", build_paragraphs([*next(iter(parts.values())).names.about, *_read_claim_totals(study)])
     yield from build_claims_sections(study, parts, page_figures)
     for name, data in parts.items():
@@ -71,43 +74,40 @@ def _iterate_sections(study: Study, parts: dict[str, StudyData], page_figures: P
 
 
 def _format_part_heading(data: StudyData, name: str) -> str:
-    """Return the heading of a part with its title."""
+    """Return the heading of a part: "Part" and the title of its name."""
     return f"Part {data.get_title(name)}"
 
 
 def _list_chapters(sections: list[Section], parts: dict[str, StudyData]) -> list[str]:
-    """Return the headings that the page links to: those before the first part, and that of each part."""
+    """Return the headings of the table of contents: those before the first part, and that of each part."""
     part_headings = [_format_part_heading(data, name) for name, data in parts.items()]
     return [name for name, _ in sections[: [name for name, _ in sections].index(part_headings[0])]] + part_headings
 
 
 def _read_claim_totals(study: Study) -> list[str]:
-    """Return lines with the numbers of trends by verdict and the deviation from printed numbers; empty without
-    claims.
-    """
+    """Return the summary lines of the claims, as `JudgedClaims.totals`; empty for a study without claims."""
     try:
         return study.claims.totals()
-    except GudgeonError:  # its file makes no claims
+    except GudgeonError:  # the study file has no claims
         return []
 
 
 def iterate_part_sections(
     data: StudyData, page_figures: PageFigures, figure_prefix: str = "study"
 ) -> Iterator[Section]:
-    """Yield heading and HTML of each section of a part: variations, failures, notes, measures, figures of measures and
-    series.
+    """Yield heading and HTML of each section of a part: varied quantities, failures, notes, measures, figures.
 
-    figure_prefix: prefix of the figures' names. Without matplotlib the figures are replaced by a line on how to install
-    it.
+    figure_prefix: prefix of the figures' names. page_figures: receives the figures. Without matplotlib a line on its
+    installation replaces the figures and the section of series.
     """
     study = data.study
-    yield "What varied", build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
+    yield "Varied quantities", build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
     failed = ((str(count), kind, message) for kind, count, message in data.iterate_failures())
-    yield "Failed runs", build_table(("runs", "failed of", "the first of them"), failed, True)
+    yield "Failed runs", build_table(("runs", "reason", "first failed run"), failed, True)
     yield "Notes", build_paragraphs(study.notes)
     yield "Measures", _format_measure_table(data)
     try:
-        import gudgeon.studies.show.study_plots  # noqa: F401 (without matplotlib it says what to install)
+        import gudgeon.studies.show.study_plots  # noqa: F401 (without matplotlib its error names the package)
     except GudgeonError as error:
         yield "Figures", build_paragraphs([str(error)])
         return
@@ -116,7 +116,7 @@ def iterate_part_sections(
 
 
 def _describe_study(parts: dict[str, StudyData]) -> str:
-    """Return runs, failures, mechanism and versions of a study in one line."""
+    """Return one line on a study: numbers of runs and failures, mechanism, version of gudgeon, digest of the file."""
     attributes = next(iter(parts.values())).dataset.attrs
     runs, failed = (sum(getattr(data.study, name) for data in parts.values()) for name in ("runs", "failed"))
     total_counts = f"{format_count(runs, 'run')} in {len(parts)} parts, {failed or 'none'} failed"
@@ -126,7 +126,7 @@ def _describe_study(parts: dict[str, StudyData]) -> str:
 
 
 def _describe_counts(data: StudyData) -> str:
-    """Return runs, dimensions and failures of a part in one line."""
+    """Return one line on a part: "72 runs (scene 2 × c 3 × start 12), none failed"."""
     study = data.study
     sizes = " × ".join(f"{data.get_title(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
     failed = f", {study.failed} failed" if study.failed else ", none failed"
@@ -134,9 +134,10 @@ def _describe_counts(data: StudyData) -> str:
 
 
 def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
-    """Yield a table row for each varied coordinate: title, dimensions, values, unit, meaning.
+    """Yield a table row for each coordinate of the dataset: title, other dimensions, values, unit, meaning.
 
-    More than SHOWN_VALUES numbers are shown by the smallest and the largest.
+    Sample times are left out. Values are written as in the study file if possible. Of more than MAX_SHOWN_VALUES
+    numbers, the row has the smallest, the largest and their count.
     """
     for name, coordinate in data.dataset.coords.items():
         if name in ("time", "sample"):
@@ -151,23 +152,24 @@ def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
             yield data.get_title(name), over, _list_values(list(written)), "", message
             continue
         factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
-        is_short = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
+        is_short = len(values) <= MAX_SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         shown_values = values if is_short or not values.size else np.array([values.min(), values.max()])
         words = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
-        listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} of them"
+        listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} values"
         yield data.get_title(name), over, listed, unit_text, message
 
 
 def _list_values(words: list[str]) -> str:
-    """Return up to SHOWN_VALUES texts joined by commas; of more the first, the last and their number."""
-    return ", ".join(words) if len(words) <= SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} of them"
+    """Return up to MAX_SHOWN_VALUES texts joined by commas; of more the first, the last and their count."""
+    return ", ".join(words) if len(words) <= MAX_SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} values"
 
 
 def _format_measure_table(data: StudyData) -> str:
-    """Return the HTML table of measures: a row for each combination of coordinates, with lines below it.
+    """Return the HTML table of the measures of a part, with a footnote; "" without measures.
 
-    Over starts and draws the cells have median and quartiles. Rows beyond MAX_ROWS are only counted. "" without
-    measures.
+    There is a row for each combination of coordinates, and a column for each measure. A cell has the median and
+    quartiles of the measure over POOLED_DIMENSIONS (starts, draws, ensembles), or the value of the only run. Rows
+    beyond MAX_ROWS are omitted, and the footnote has their number.
     """
     names, rows, omitted = data.study.measures, dict[tuple[str, ...], list[str]](), 0
     if not names:
@@ -175,8 +177,8 @@ def _format_measure_table(data: StudyData) -> str:
     dims, units, has_spread = [], [], False
     for name in names:
         shape = data.dataset[name]
-        dims = [str(dim) for dim in shape.dims if dim not in MANY]
-        has_spread = any(dim in MANY for dim in shape.dims)
+        dims = [str(dim) for dim in shape.dims if dim not in POOLED_DIMENSIONS]
+        has_spread = any(dim in POOLED_DIMENSIONS for dim in shape.dims)
         factor, unit = choose_plot_unit(
             float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.get_unit(name)
         )
@@ -189,18 +191,19 @@ def _format_measure_table(data: StudyData) -> str:
             rows.setdefault(key, []).append(_format_spread(values * factor, has_spread))
     head = [data.format_value_labels(dim)[1] for dim in dims]
     head += [format_label(data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
-    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in MANY]
+    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in POOLED_DIMENSIONS]
     message = [
-        f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"
+        f"median (quartiles) over {', '.join(over)}; n: number of runs with a value, if some have none"
     ] * has_spread
-    message += [f"{omitted} more rows are in the dataset"] * bool(omitted)
+    message += [f"{omitted} further rows are in the dataset"] * bool(omitted)
     return build_table(head, ([*key, *cells] for key, cells in rows.items())) + build_paragraphs(message, "g-quiet")
 
 
 def _format_spread(values: Any, has_spread: bool) -> str:
-    """Return median and quartiles as a cell, with the number of runs if some have no value; "–" if none has one.
+    """Return the table cell of some runs: "1.2 (1.1 … 1.4)", median and quartiles of the finite values.
 
-    has_spread: False for a single value.
+    "n = 3" is added if some values are not finite. has_spread False: the first finite value alone. "–" without finite
+    values.
     """
     finite_values = values[np.isfinite(values)]
     if not finite_values.size:
@@ -213,9 +216,10 @@ def _format_spread(values: Any, has_spread: bool) -> str:
 
 
 def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
-    """Yield caption and drawing function of each measure over its first dimension, and of maps over its first two.
+    """Yield caption and drawing function of each measure over its axis dimension, and of heat maps over its first two.
 
-    Measures without dimensions or finite values are left out; maps are drawn for each scene.
+    Measures without dimensions or finite values are left out. Heat maps are drawn for each scene, over dimensions other
+    than POOLED_DIMENSIONS, unless all values are 0 or NaN.
     """
     from gudgeon.studies.show.study_plots import StudyPlot
 
@@ -228,37 +232,36 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
             f"{data.get_title(name)}: {_describe_pooled_runs(data, variable)}",
             partial(plot.measure, name, published=True),
         )
-        varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in MANY]
+        varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in POOLED_DIMENSIONS]
         if len(varied) < 2:
             continue
         for scene in [str(dim) for dim in data.dataset["scene"].values] if "scene" in variable.dims else [""]:
             coordinates = {"scene": scene} if scene else {}
-            if not np.nan_to_num(
-                data.select_measure(name, coordinates).values
-            ).any():  # nothing, or what is 0 everywhere
+            if not np.nan_to_num(data.select_measure(name, coordinates).values).any():  # all values are NaN or 0
                 continue
             message = ", ".join(filter(None, (f"{data.get_title(name)}: median", data.get_title(scene))))
             yield message, partial(plot.heat_map, name, *varied[:2], at=coordinates)
 
 
 def _describe_pooled_runs(data: StudyData, measure: Any) -> str:
-    """Return in words over which dimensions the statistics of a measure's figure are computed."""
+    """Return in words over which dimensions the figure of a measure has statistics; "of each run" for none."""
     over = data.choose_axis_dimension(measure)
     others = [str(dim) for dim in measure.dims if dim not in (over, data.choose_line_dimension(measure, over))]
     return f"median, quartiles and extremes over {', '.join(map(data.get_title, others))}" if others else "of each run"
 
 
 def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
-    """Yield caption and drawing function of bands of each stored series over time.
+    """Yield caption and drawing function of the bands (median, quartiles, extremes) of each stored series over time.
 
-    If runs have different times, they are drawn over fractions of each run. Very large or empty series are left out.
+    If runs have different sample times, the bands are over fractions of each run's duration. Series that are empty or
+    exceed MAX_SERIES_VALUES or MAX_SERIES_SAMPLES are left out.
     """
     from gudgeon.studies.show.study_plots import StudyPlot
 
     plot = StudyPlot(data.study)
     for name in data.stored_series:
         variable = data.dataset[name]
-        if variable.size > MOST_NUMBERS or variable.shape[-1] > MOST_SAMPLES or not variable.size:
+        if variable.size > MAX_SERIES_VALUES or variable.shape[-1] > MAX_SERIES_SAMPLES or not variable.size:
             continue
         t, _ = data.select_series(name)
         runs = variable.size // variable.shape[-1]
@@ -268,6 +271,6 @@ def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
             continue
         message = f"{data.get_title(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
         yield (
-            message + ", over shares" * over_fractions,
+            message + ", over fractions of the run" * over_fractions,
             partial(plot.bands, name, line_dimension, share=over_fractions),
         )

@@ -1,7 +1,8 @@
-"""Draw the figures of a study, `study.plot`: bands of an ensemble, curves, maps, Poincaré sections.
+"""Draw the figures of a study, `study.plot`: quantile bands, curves, heat maps, Poincaré sections, bifurcation
+diagrams.
 
-Each method draws one Axes, new or given, of the runs that `at` selects: {"scene": "dry", "c": 3e-4}, the nearest value
-for a number. Statistics leave out NaN of failed runs. On axes of texts the figures show medians with quartiles and
+Each method draws one Axes, new or passed, of the runs that `at` selects: {"scene": "dry", "c": 3e-4}, the nearest value
+for a number. Statistics leave out NaN of failed runs. On axes of texts the figures have medians with quartiles and
 extremes, and published values.
 """
 
@@ -22,7 +23,7 @@ from gudgeon.results.figures.run_plots import check_axes, create_axes
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import compute_spectra, filter_low_pass, resample_over_fractions
 
-import matplotlib  # isort: skip  (labels.py says where it is missing)
+import matplotlib  # isort: skip  (without matplotlib, an import above raises an error that names the package)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,11 +31,12 @@ if TYPE_CHECKING:
 
     from gudgeon.studies.ensemble.finished import Study
 
-SMALL = 80  # largest number of cells of a map with legible numbers
-COLUMNS, ROWS = 14, 24  # of a heat map, that have words at its axes
-BESIDE = 0.5  # fraction of the width of a tick in which its dots are side by side
-QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
-AXIS, LINE = 60, 22  # letters that fit side by side under a figure; letters of a line there
+MAX_LABELLED_CELLS = 80  # maximum number of cells of a heat map with numbers in them
+MAX_X_TICKS, MAX_Y_TICKS = 14, 24  # tick labels of a heat map
+BAR_GROUP_WIDTH = 0.5  # width of a group of bars, as a fraction of the distance of ticks
+FIVE_NUMBER_LEVELS = (0.0, 0.25, 0.5, 0.75, 1.0)  # minimum, quartiles and maximum
+MAX_TICK_ROW_LENGTH = 60  # characters of all tick labels that fit below a figure without rotation
+MAX_TICK_LINE_LENGTH = 22  # characters of a line of a tick label
 
 
 class StudyPlot:
@@ -54,12 +56,12 @@ class StudyPlot:
         published: Mapping[Any, float] | bool = False,
         ax: Axes | None = None,
     ) -> Axes:
-        """Plot a measure over a varied coordinate (the first number), with a line for each value of `by` (scenes).
+        """Plot a measure over a varied coordinate `over`, with a line for each value of `by`.
 
-        Lines are medians over all other runs, bands their quartiles and extremes; over texts, zips and starts dots and
-        bars. published: marks of published values, {coordinate: value, SI}; True: the numbers that the study's file
-        claims of these runs, in the lines' colours, except those about a part of the runs of a median. Returns the
-        axes, new ones if `ax` is None. `at` selects runs: {name: value}.
+        Defaults: over the first numeric coordinate, by scenes. Lines are medians over all other runs, bands their
+        quartiles and extremes; over texts, zips and starts there are dots with bars. published: {coordinate: value, SI}
+        is marked; True marks the numbers of the file's claims on these runs. Returns the axes, new ones if `ax` is
+        None. `at` selects runs: {name: value}. Raises BadValueError if `over` and `by` are one dimension.
         """
         values = self.data.select_measure(name, at)
         axis = self.data.choose_axis_dimension(values) if over is None else over
@@ -75,16 +77,18 @@ class StudyPlot:
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.6, 3.6) if ax is None else check_axes(ax)
             x, x_label, ticks = self.data.describe_axis(axis)
-            most = [find_largest_magnitude(values.values), *(abs(value) for _, value, _ in claimed)]
-            factor, unit = choose_plot_unit(max(most), values.attrs.get("units", ""))
-            parts, course = self.data.split_runs(values, by), self.data.is_ordered_number(axis)
+            magnitudes = [find_largest_magnitude(values.values), *(abs(value) for _, value, _ in claimed)]
+            factor, unit = choose_plot_unit(max(magnitudes), values.attrs.get("units", ""))
+            parts, is_ordered = self.data.split_runs(values, by), self.data.is_ordered_number(axis)
             for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
-                quantiles = compute_quantiles(self.data.flatten_runs(part_values, over)) * factor
-                if course:
+                quantiles = compute_run_quantiles(self.data.flatten_runs(part_values, over)) * factor
+                if is_ordered:
                     draw_band(ax, x, quantiles, colour, message)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), quantiles, colour, message)
+                    draw_bars(
+                        ax, x + BAR_GROUP_WIDTH * (k - 0.5 * (len(parts) - 1)) / len(parts), quantiles, colour, message
+                    )
             draw_published_values(ax, claimed, factor, choose_colours(len(parts)))
             ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
             set_ticks(ax, x, ticks)
@@ -102,18 +106,18 @@ class StudyPlot:
     ) -> Axes:
         """Plot a stored series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
-        share: over fractions of each run's duration, 0 to 1, at the samples of the longest run; other runs are
-        interpolated linearly. Raises BadValueError for runs with different times without share. Returns the axes, new
-        ones if `ax` is None. `at` selects runs: {name: value}.
+        share: over fractions of each run's duration, 0 to 1, at the samples of the run with the most samples; other
+        runs are interpolated linearly. Raises BadValueError for runs with different times without `share`. Returns the
+        axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         t, values = self.data.select_series(series, at)
         if check_flag(share, "share"):
-            if (shares := resample_over_fractions(t, values)) is None:
-                raise BadValueError(f"{series}: no run has a length of which there are shares")
-            t, values = shares
+            if (resampled := resample_over_fractions(t, values)) is None:
+                raise BadValueError(f"{series}: no run has a duration to resample over")
+            t, values = resampled
         if t.ndim > 1:
-            message = f"{series}: the runs have samples at different times, of which there are no bands"
-            raise BadValueError(message, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
+            message = f"{series}: the runs have different sample times: bands need the same times"
+            raise BadValueError(message, hint="select runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.find_dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
@@ -124,23 +128,25 @@ class StudyPlot:
                 draw_band(
                     ax,
                     t,
-                    compute_quantiles(self.data.flatten_runs(part_values, values.dims[-1])) * factor,
+                    compute_run_quantiles(self.data.flatten_runs(part_values, values.dims[-1])) * factor,
                     colour,
                     message,
                     0.0,
                 )
             ax.set(
-                xlabel="share of the run" if share else "t [s]", ylabel=format_label(self.data.get_title(series), unit)
+                xlabel="fraction of the run" if share else "t [s]",
+                ylabel=format_label(self.data.get_title(series), unit),
             )
             self._set_title_and_legend(ax, at, len(parts) > 1)
         return ax
 
     def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """Plot a stored series over time with a curve for every run, in the colour of its value of `by`, and return
-        the axes.
+        """Plot a stored series over time with a curve for every run, in the colour of its value of `by`.
+
+        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}. `by` None: one colour.
         """
         t, values = self.data.select_series(series, at)
-        return self._plot_curves(t, values, "t [s]", series, by, at, ax)
+        return self._plot_run_curves(t, values, "t [s]", series, by, at, ax)
 
     def spectrum(
         self,
@@ -151,10 +157,11 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Plot amplitudes of a stored series over frequency (Hz), as in `run.plot.spectrum`, for each value of `by`.
+        """Plot the amplitude spectrum of a stored series over frequency (Hz), as in `run.plot.spectrum`.
 
-        Median, quartiles and extremes over its runs. Raises BadValueError for uneven samples, or for runs of one value
-        with different times. Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
+        There is a band (median, quartiles, extremes) of the runs of each value of `by`, or of all runs for None. Raises
+        BadValueError for uneven samples, or for runs of one band with different times. Returns the axes, new ones if
+        `ax` is None. `at` selects runs: {name: value}.
         """
         t, values = self.data.select_series(series, at)
         by = self.data.find_dimension(values, by) if by is not None else None
@@ -166,7 +173,7 @@ class StudyPlot:
             )
             message = [word for word, _ in self.data.split_runs(values, by)]
             for word, (f, rows), colour in zip(message, spectra, choose_colours(len(message)), strict=True):
-                draw_band(ax, f, compute_quantiles(rows) * factor, colour, word, 0.0)
+                draw_band(ax, f, compute_run_quantiles(rows) * factor, colour, word, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=format_label(self.data.get_title(series), unit))
             self._set_title_and_legend(ax, at, len(message) > 1)
         return ax
@@ -182,29 +189,29 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Plot a stored series as an accelerometer shows it, after a Butterworth low-pass with −3 dB at `cutoff` (Hz).
+        """Plot a stored series after a Butterworth low-pass filter with −3 dB at `cutoff` (Hz), as of an accelerometer.
 
-        There is a curve for every run, in the colour of its value of `by`; `order`, `causal`: as in
-        `run.plot.low_pass`. Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
+        There is a curve for every run, in the colour of its value of `by`. order, causal: as in `run.plot.low_pass`.
+        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         t, values = self.data.select_series(series, at)
         cutoff = check_positive(cutoff, "cutoff")
         filtered = filter_low_pass(t, values, cutoff, order, check_flag(causal, "causal"))
-        ax = self._plot_curves(t, filtered, "t [s]", series, by, at, ax)
+        ax = self._plot_run_curves(t, filtered, "t [s]", series, by, at, ax)
         message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(format_figure_title(f"{ax.get_title()}: {message}", TITLE_WIDTH))
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """Plot one stored series over another with a curve for every run, in the colour of its value of `by`.
+        """Plot a phase portrait: one stored series over another, a curve for every run, coloured by its value of `by`.
 
         Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         (_, xs), (_, ys) = self.data.select_series(x, at), self.data.select_series(y, at)
         factor, unit = choose_plot_unit(find_largest_magnitude(xs.values), xs.attrs.get("units", ""))
-        return self._plot_curves(xs.values * factor, ys, format_label(self.data.get_title(x), unit), y, by, at, ax)
+        return self._plot_run_curves(xs.values * factor, ys, format_label(self.data.get_title(x), unit), y, by, at, ax)
 
-    def _plot_curves(
+    def _plot_run_curves(
         self,
         x: Any,
         values: Any,
@@ -216,8 +223,8 @@ class StudyPlot:
     ) -> Axes:
         """Plot a curve for every run, in the colour of its value of `by`, and return the axes.
 
-        x: values on the x axis, (N,) or (…, N). values: the series over them, a DataArray, and `name` its name. ax:
-        None for new axes.
+        x: abscissae, (N,) or (…, N). values: ordinates, a DataArray (…, N) of the series `name` in SI. by: None for one
+        colour. at: the selected coordinates, for the title. ax: None for new axes.
         """
         by = self.data.find_dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
@@ -226,11 +233,11 @@ class StudyPlot:
             x = np.broadcast_to(x, values.shape)
             parts = self.data.split_runs(values, by)
             for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
-                own_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
-                rows = zip(own_x.reshape(-1, x.shape[-1]), part_values.values.reshape(-1, x.shape[-1]), strict=True)
-                called = select_legend_label(part_values.values, message)
+                part_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
+                rows = zip(part_x.reshape(-1, x.shape[-1]), part_values.values.reshape(-1, x.shape[-1]), strict=True)
+                label = select_legend_label(part_values.values, message)
                 for j, (xs, ys) in enumerate(rows):
-                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
+                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=label if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
             self._set_title_and_legend(ax, at, len(parts) > 1)
         return ax
@@ -282,12 +289,12 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Plot the values of a stored series in a section (see `section`) as dots over a parameter.
+        """Plot a bifurcation diagram: values of a stored series in a Poincaré section (see `section`) over a parameter.
 
         Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
-        _, found = self.data.select_series(series, at)
-        dim_index = found.dims.index(self.data.find_dimension(found, over))
+        _, values_of_runs = self.data.select_series(series, at)
+        dim_index = values_of_runs.dims.index(self.data.find_dimension(values_of_runs, over))
         x, x_label, ticks = self.data.describe_axis(over)
         section_values = self.data.find_section_values(section, [series], level, falling, after, at)
         xs = np.concatenate(
@@ -304,69 +311,72 @@ class StudyPlot:
         return ax
 
     def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty.
+        """Plot the median of a measure over two dimensions as a heat map; a cell without a finite value stays empty.
 
-        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}. Raises BadValueError if x and y
-        are one dimension.
+        Up to MAX_LABELLED_CELLS cells have their values as text. Returns the axes, new ones if `ax` is None. `at`
+        selects runs: {name: value}. Raises BadValueError if x and y are one dimension.
         """
         values = self.data.select_measure(name, at)
         x, y = self.data.find_dimension(values, x), self.data.find_dimension(values, y)
         if x == y:
             raise BadValueError(f"heat_map: {x} is both x and y")
-        middle = compute_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
+        middle = compute_run_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.8, 4.2) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(middle), values.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
             (words, x_label), (others, y_label) = (self.data.format_value_labels(name_of) for name_of in (x, y))
-            below, beside = select_tick_indices(len(words), COLUMNS), select_tick_indices(len(others), ROWS)
-            set_ticks(ax, below, [words[k] for k in below])
-            ax.set_yticks(beside, [format_figure_title(others[k], LINE) for k in beside])
+            x_ticks, y_ticks = (
+                select_tick_indices(len(words), MAX_X_TICKS),
+                select_tick_indices(len(others), MAX_Y_TICKS),
+            )
+            set_ticks(ax, x_ticks, [words[k] for k in x_ticks])
+            ax.set_yticks(y_ticks, [format_figure_title(others[k], MAX_TICK_LINE_LENGTH) for k in y_ticks])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=format_label(self.data.get_title(name), unit))
-            if middle.size <= SMALL:
+            if middle.size <= MAX_LABELLED_CELLS:
                 write_cell_values(ax, middle * factor, image)
             self._set_title_and_legend(ax, at, False)
         return ax
 
     def _set_title_and_legend(self, ax: Axes, coordinates: Coords | None, has_legend: bool) -> None:
-        """Set the title with the selected coordinates and, with `has_legend`, a legend if any curve has a label.
+        """Set the title (study and selected coordinates) and, with `has_legend`, a legend if any curve has a label.
 
-        `coordinates` None: all runs.
+        coordinates: {name: value}; None: all runs.
         """
-        picked = ", ".join(self.data.describe_coordinate(name, value) for name, value in (coordinates or {}).items())
+        selected = ", ".join(self.data.describe_coordinate(name, value) for name, value in (coordinates or {}).items())
         ax.set_title(
-            format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), picked))), TITLE_WIDTH)
+            format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), selected))), TITLE_WIDTH)
         )
         if has_legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
 
 def _convert_to_dict(published: Any) -> dict[Any, Any]:
-    """Return published values, {coordinate: value}, as a dict; empty for None. Raises BadValueError for anything
-    else.
-    """
+    """Return published values, {coordinate: value}, as a dict; empty for None. Raises BadValueError for other types."""
     try:
         return dict(published or {})
     except (TypeError, ValueError):
         raise_bad_value("published", published, "{coordinate: number}, or True")
 
 
-def compute_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = QUARTILES) -> Any:
-    """Return quantiles (len(fractions), …) over the first axis of `rows`, without values that are not finite.
+def compute_run_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = FIVE_NUMBER_LEVELS) -> Any:
+    """Return quantiles (len(fractions), …) over the first axis (runs) of `rows`; values that are not finite are
+    ignored.
 
-    fractions: 0 for the minimum to 1 for the maximum. NaN where no value is finite.
+    fractions: levels in [0, 1], by default minimum, quartiles and maximum. NaN where no value is finite.
     """
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # all values are NaN, and so is the result
+        warnings.simplefilter("ignore", RuntimeWarning)  # of a column of NaN, whose quantiles are NaN
         return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), fractions, axis=0)
 
 
 def draw_band(ax: Axes, x: Any, quantiles: Any, colour: str, label: str, marker_size: float = 4.0) -> None:
-    """Draw median, quartiles and extremes over x as a line with bands; for equal extremes only the line.
+    """Draw median, quartiles and extremes over x, (N,), as a line with bands; the line alone if all extremes are equal.
 
-    quantiles: minimum, quartiles and maximum, (5, N). marker_size: of the markers, 0 for none.
+    quantiles: minimum, quartiles and maximum, (5, N). marker_size: of the line's markers, 0 for none. x need not be
+    sorted.
     """
     low, q1, middle, q3, high = quantiles
     order = np.argsort(x, kind="stable")
@@ -385,9 +395,9 @@ def draw_band(ax: Axes, x: Any, quantiles: Any, colour: str, label: str, marker_
 
 
 def draw_bars(ax: Axes, x: Any, quantiles: Any, colour: str, label: str) -> None:
-    """Draw medians as dots with bars of quartiles and extremes, for values that no line may connect.
+    """Draw box plots without boxes: medians as dots, quartiles as thick and extremes as thin vertical bars.
 
-    quantiles: minimum, quartiles and maximum, (5, N).
+    They are for coordinates without an order. quantiles: minimum, quartiles and maximum, (5, N).
     """
     low, q1, middle, q3, high = quantiles
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
@@ -401,17 +411,21 @@ def select_legend_label(values: Any, label: str) -> str | None:
 
 
 def select_tick_indices(n: int, max_count: int) -> range:
-    """Return evenly spaced indices of n, at most `max_count`, for labels at an axis."""
+    """Return every k-th index of range(n), from 0 on, with the smallest k that gives at most `max_count` indices."""
     return range(0, n, -(-n // max_count))
 
 
 def set_ticks(ax: Axes, x: Any, tick_texts: list[str] | None) -> None:
-    """Set texts at the x axis, wrapped, and slanted if they would not fit; None changes nothing."""
+    """Set texts as tick labels of the x axis, wrapped to lines of MAX_TICK_LINE_LENGTH characters; None changes
+    nothing.
+
+    They are rotated by 30° if all lines together exceed MAX_TICK_ROW_LENGTH characters.
+    """
     if tick_texts is None:
         return
-    lines = [format_figure_title(word, LINE) for word in tick_texts]
+    lines = [format_figure_title(word, MAX_TICK_LINE_LENGTH) for word in tick_texts]
     ax.set_xticks(x, lines)
-    if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > AXIS:
+    if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > MAX_TICK_ROW_LENGTH:
         ax.tick_params(axis="x", rotation=30.0, labelsize=7)
         for word in ax.get_xticklabels():
             word.set(ha="right", rotation_mode="anchor")
@@ -420,10 +434,10 @@ def set_ticks(ax: Axes, x: Any, tick_texts: list[str] | None) -> None:
 def draw_published_values(
     ax: Axes, published: list[tuple[float, float, int]], factor: float, colours: list[str]
 ) -> None:
-    """Draw published values as stars in the colours of their lines.
+    """Draw published values as stars in the colours of their lines, the first with a label for the legend.
 
-    published: position on the axis, value (SI), and index of the line, −1 for none. factor: from SI to the unit of the
-    axis.
+    published: (position on the axis, value in SI, index of the line or −1 for none). factor: from SI to the unit of the
+    axis. colours: of the lines.
     """
     for k, (coordinate, value, line) in enumerate(published):
         colour = IDEAL if line < 0 else colours[line]
@@ -432,7 +446,11 @@ def draw_published_values(
 
 
 def write_cell_values(ax: Axes, values: Any, image: Any) -> None:
-    """Write each finite value into its cell of a heat map, dark on bright colours and white on dark ones."""
+    """Write each finite value (in the unit of the axes) into its cell of a heat map, dark on bright colours, else
+    white.
+
+    image: the AxesImage, whose colours decide.
+    """
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55

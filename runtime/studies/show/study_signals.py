@@ -1,6 +1,6 @@
-"""Process time series of a study's runs: resampling, spectra, low-pass filters, points on a Poincaré section.
+"""Process time series of a study's runs: resampling, amplitude spectra, low-pass filters, Poincaré sections.
 
-Failed runs have no series.
+Failed runs have NaN in place of series.
 """
 
 from __future__ import annotations
@@ -13,22 +13,27 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.text_output import format_one_line
 from gudgeon.results.signals import apply_low_pass, compute_spectrum
 
-TIME_TOL = 0.01  # of the time between two samples: so far apart, samples are of the same time
-SAME = 1e-9  # tolerance of fractions of a run that count as equal
+TIME_TOL = 0.01  # tolerance of equal sample times, as a fraction of the shortest sample interval
+FRACTION_TOL = 1e-9  # tolerance of equal fractions of a run's duration
 
 
 def have_equal_times(times: Any) -> bool:
-    """Return whether all rows of times (runs, N) are equal to the first within TIME_TOL of its shortest interval."""
+    """Return whether all rows of sample times (runs, N) equal the first row within TIME_TOL of its shortest interval.
+
+    NaN equals NaN.
+    """
     first = times[0]
     step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
     return bool(np.isclose(times, first, rtol=1e-12, atol=TIME_TOL * abs(float(step)), equal_nan=True).all())
 
 
 def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
-    """Return fractions of the run's duration (M,), those of the longest run, and the series of all runs there (…, M).
+    """Resample the series of all runs to common fractions of each run's duration; return fractions (M,) and series
+    (…, M).
 
-    t: sample times. series: a DataArray. A run with other samples is interpolated linearly; it is NaN beyond its
-    samples. None if no run has a duration.
+    The fractions, 0 to 1, are those of the run with the most samples. t: sample times, (N,) or (…, N). series: a
+    DataArray (…, N). Other runs are interpolated linearly, with NaN outside their finite samples. None if no run has a
+    duration.
     """
     times = np.broadcast_to(t, series.shape).reshape(-1, series.shape[-1])
     fractions_of_runs = [_scale_times(row[np.isfinite(row)]) for row in times]
@@ -40,7 +45,7 @@ def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
         values, series.values.reshape(times.shape), times, fractions_of_runs, strict=True
     ):
         y = x[np.isfinite(row)]
-        if len(run_fractions) == len(fractions) and np.allclose(run_fractions, fractions, rtol=0.0, atol=SAME):
+        if len(run_fractions) == len(fractions) and np.allclose(run_fractions, fractions, rtol=0.0, atol=FRACTION_TOL):
             out[:] = y
         elif len(run_fractions) and (good := np.isfinite(y)).any():
             out[:] = np.interp(fractions, run_fractions[good], y[good], left=np.nan, right=np.nan)
@@ -50,15 +55,15 @@ def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
 
 
 def _scale_times(t: Any) -> Any:
-    """Return the times of a run scaled to 0 … 1; empty for a run without a duration."""
+    """Return the sample times of a run, scaled linearly to 0 … 1; empty for fewer than two times or no duration."""
     return (t - t[0]) / (t[-1] - t[0]) if len(t) > 1 and t[-1] > t[0] else np.zeros(0)
 
 
 def compute_spectra(t: Any, series: Any, dimension: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
-    """Return frequencies (M,) in Hz and amplitudes (runs, M) for each value of a dimension; None means all runs.
+    """Return the amplitude spectra of all runs: a pair of frequencies (M,) in Hz and amplitudes (runs, M).
 
-    name: of the series, for messages. window: as in `compute_spectrum`. Raises BadValueError if runs of one value have
-    different sample times.
+    There is a pair for each value of `dimension`; for None a single pair of all runs. name: of the series, for
+    messages. window: as in `compute_spectrum`. Raises BadValueError if runs of one pair have different sample times.
     """
     times = np.broadcast_to(t, series.shape)
     values = [(times, series.values)]
@@ -81,18 +86,18 @@ def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -
         return np.zeros(1), np.full((1, 1), np.nan)
     first = rows[0][0]
     if any(len(t) != len(first) for t, _ in rows) or not have_equal_times(np.array([t for t, _ in rows])):
-        message = (
-            f"{format_one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
-        )
-        raise BadValueError(message, hint="pick runs with the same times (at=…), or name by= what their times follow")
+        message = f"{format_one_line(name)}: the runs have different sample times, so they have no common frequencies"
+        hint = "select runs with the same times (at=…), or name the dimension on which their times depend (by=…)"
+        raise BadValueError(message, hint=hint)
     each = [compute_spectrum(first, x, window) for _, x in rows]
     return each[0][0], np.array([amplitudes for _, amplitudes in each])
 
 
 def filter_low_pass(t: Any, series: Any, cutoff: float, order: int, causal: bool) -> Any:
-    """Return the series after a Butterworth low-pass of each run; NaN where it has no finite samples.
+    """Return the series of each run after a Butterworth low-pass filter; NaN where a sample or its time is not finite.
 
-    cutoff: Hz. causal: False filters forwards and backwards, without a phase shift.
+    series: a DataArray (…, N), t: (N,) or (…, N). cutoff: Hz. causal: False filters forwards and backwards, with zero
+    phase.
     """
     filtered = np.full(series.shape, np.nan)
     for samples, out in zip(
@@ -105,18 +110,18 @@ def filter_low_pass(t: Any, series: Any, cutoff: float, order: int, causal: bool
 
 
 def _iterate_runs(*arrays: Any) -> Any:
-    """Return an iterator over the runs, with the row (N,) of each array."""
+    """Return an iterator over runs that yields the row (N,) of each array (…, N) as a tuple, views of the arrays."""
     return zip(*(array.reshape(-1, array.shape[-1]) for array in arrays), strict=True)
 
 
 def find_values_at_crossings(
     t: Any, section_values: Any, other_series: list[Any], level: float, is_falling: bool, min_time: float
 ) -> list[Any]:
-    """Return the values of other series, (k,) each, where one series rises (or falls) through a level.
+    """Return the points of a Poincaré section: values of other series, (k,) each, where one rises through a level.
 
-    t, section_values and other_series: (N,) samples of one run. is_falling: crossings from above instead of from
-    below. min_time (s): earlier crossings are left out. Between samples all series are monotone cubics (PCHIP).
-    Empty for fewer than two finite samples.
+    t, section_values and other_series: samples (N,) of one run. is_falling: crossings from above instead of from below.
+    min_time (s): earlier crossings are left out. Between samples all series are monotone cubics (PCHIP). Arrays are
+    empty for fewer than two finite samples.
     """
     from scipy.interpolate import PchipInterpolator
 
@@ -135,6 +140,6 @@ def find_values_at_crossings(
 
 
 def _find_root_between(roots: Any, begin: float, end: float) -> float:
-    """Return the first of the sorted roots in [begin, end], or `end` if rounding lost it."""
+    """Return the first of the sorted roots in [begin, end], or `end` if there is none because of rounding."""
     inner_roots = roots[(roots >= begin) & (roots <= end)]
     return float(inner_roots[0]) if len(inner_roots) else float(end)

@@ -1,4 +1,4 @@
-"""Print tables and write files for `gudgeon bench` and `gudgeon map`: tables, CSV, formats of numbers."""
+"""Format numbers and tables, and write CSV files and figures, for `gudgeon bench` and `gudgeon map`."""
 
 from __future__ import annotations
 
@@ -20,19 +20,20 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-WIDTH = 100  # of everything that is printed
+MAX_FILE_WIDTH = 100  # characters of a line that is printed to a file
 
 
 def make_console() -> Console:
-    """Return a rich console without colours for files: as wide as the terminal, or 100 columns for a file."""
+    """Return a rich console for standard output, as wide as the terminal; 100 columns and no colours for a file."""
     from gudgeon.language.text_output import make_plain_console
 
-    return make_plain_console(None if sys.stdout.isatty() else WIDTH)
+    return make_plain_console(None if sys.stdout.isatty() else MAX_FILE_WIDTH)
 
 
-def make_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Table:
-    """Return an empty rich table with these column heads; columns are right-aligned, those in `left_aligned`
-    left-aligned and wrapped.
+def make_rich_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Table:
+    """Return an empty rich table with these column heads.
+
+    Columns in `left_aligned` are left-aligned and wrapped, others right-aligned and not wrapped.
     """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
@@ -45,9 +46,10 @@ def make_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Tabl
     return table
 
 
-def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
-    """Write rows as CSV, with floats of six digits and texts that a spreadsheet does not evaluate. Raises
-    OutputError.
+def write_rows_as_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
+    """Write rows as CSV with a header line: floats with six digits, texts escaped so that a spreadsheet runs none.
+
+    rows: column name to value; the first row decides the columns, and there must be one. Raises OutputError.
     """
     text = io.StringIO()
     writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
@@ -62,20 +64,20 @@ def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
 def write_table_and_figure(
     table_path: Path, rows: Sequence[dict[str, Any]], draw_figure: Callable[[], Figure]
 ) -> tuple[list[Path], OutputError | None]:
-    """Write the table as CSV and, next to it as PNG, the figure that `draw_figure` returns, if matplotlib is installed.
+    """Write the table as CSV and the figure of `draw_figure` as PNG next to it; without matplotlib only the table.
 
-    Return the written files and the first OutputError, or None. The caller raises it after printing, so that results
-    are not lost with a full disk.
+    Returns the written files, and the first OutputError or None instead of raising it: the caller raises it after
+    printing, so that results are not lost with a full disk.
     """
     written, failed = [], None
 
     def save_png(path: Path) -> None:
-        """Draw the figure and save it as PNG."""
+        """Draw the figure and save it as PNG; matplotlib is imported here only."""
         from gudgeon.results.figures.plots import save_figure
 
         save_figure(draw_figure(), path)
 
-    steps: list[tuple[Path, Callable[[Path], None]]] = [(table_path, lambda path: write_csv(path, rows))]
+    steps: list[tuple[Path, Callable[[Path], None]]] = [(table_path, lambda path: write_rows_as_csv(path, rows))]
     if find_spec("matplotlib"):
         steps.append((table_path.with_suffix(".png"), save_png))
     for path, write in steps:
@@ -88,7 +90,7 @@ def write_table_and_figure(
 
 
 def format_fraction(value: float) -> str:
-    """Return a fraction as text: "12 %", "0.30 %", "4e-7"; "–" for NaN."""
+    """Return a fraction as text: 0.12 as "12 %", 0.003 as "0.30 %", 4e-7 as "4e-7"; "–" for NaN."""
     if math.isnan(value):
         return "–"
     if 1e-4 <= value < 100:
@@ -97,12 +99,12 @@ def format_fraction(value: float) -> str:
 
 
 def format_rough_fraction(value: float) -> str:
-    """Return a fraction as text for a cell of a map, with small values as "< 0.01 %"."""
+    """Return a fraction as text for a cell of a map, as `format_fraction`, but "< 0.01 %" for values below 1e-4."""
     return "< 0.01 %" if value < 1e-4 else format_fraction(value)
 
 
 def format_seconds(value: float) -> str:
-    """Return a time (s) with three digits and a suitable unit from ns to s; "–" for NaN or infinity."""
+    """Return a time (s) as text with three digits and a suitable unit, "10 µs" for 1e-5; "–" for NaN or infinity."""
     for factor, unit in ((1e9, "ns"), (1e6, "µs"), (1e3, "ms"), (1.0, "s")):
         if abs(value) * factor < 999.5:
             return f"{value * factor:.3g} {unit}"
