@@ -378,8 +378,8 @@ static void flush_lane_local_steps(
     run->control.observed_order = local_steps->observed_order[k];
     run->control.last_step = local_steps->last_step[k];
     run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
-        .end = local_steps->t_end[k], .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1, .lane = method,
-        .film_error_norm = INFINITY};
+        .end = local_steps->t_end[k], .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1,
+        .lane = method, .film_error_norm = INFINITY};
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5)
         flush_history(local_steps, lanes, k, run);

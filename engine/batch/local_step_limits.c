@@ -54,8 +54,9 @@ static int is_ordinary_step(const Integrator *run)
 /* Return the number of steps of a stiff method until the lengths of both methods are compared (choose_method()). */
 static long count_steps_before_comparison(const Integrator *run)
 {
+    const int phase = run->choice.steps_since_change % CHECK_STIFF_STEPS;
     return !run->choice.method->stiff ? LONG_MAX
-        : (MIN_COMPARE_STEPS - run->choice.steps_since_change % CHECK_STIFF_STEPS + CHECK_STIFF_STEPS) % CHECK_STIFF_STEPS;
+        : (MIN_COMPARE_STEPS - phase + CHECK_STIFF_STEPS) % CHECK_STIFF_STEPS;
 }
 
 /*
@@ -64,7 +65,8 @@ static long count_steps_before_comparison(const Integrator *run)
  */
 static long count_steps_of_any_length(const Integrator *run)
 {
-    const double first_measured = ((double)run->audit.n_long_steps + 1.0) * compute_mean_check_interval(run->choice.method);
+    const double first_measured =
+        ((double)run->audit.n_long_steps + 1.0) * compute_mean_check_interval(run->choice.method);
     const double left = first_measured - (double)run->counts.steps;
     return !run->audit.level || left > 1e9 ? LONG_MAX : left >= 0.0 ? (long)left + 1 : 0;
 }
@@ -95,9 +97,10 @@ static void get_local_step_limits(const void *integrator, const double *paramete
     local->limits.min_rho = method->stiff ? MAX_EXPLICIT_STABILITY : -INFINITY;
     local->limits.max_rho = method->stiff ? INFINITY : method->limiting_h_rho;
     local->limits.max_contrary =
-        !run->choice.automatic ? INFINITY : method->stiff ? run->choice.patience : run->choice.max_contrary_steps;
-    local->limits.max_length = unlimited_steps > 0 ? INFINITY : AUDIT_LONGEST * run->audit.longest_measured;
-    local->limits.max_ratio = unlimited_steps > 0 ? INFINITY : AUDIT_LONGER;
+        !run->choice.automatic ? INFINITY : method->stiff ? run->choice.return_steps : run->choice.max_contrary_steps;
+    local->limits.max_length = unlimited_steps > 0 ? INFINITY
+        : AUDIT_MEASURED_LENGTH_RATIO * run->audit.longest_measured;
+    local->limits.max_ratio = unlimited_steps > 0 ? INFINITY : AUDIT_LENGTH_RATIO;
     local->limits.film_error = has_films() && method->stiff ? compute_film_error_limit(run) : INFINITY;
     local->limits.peak_ratio = method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO;
     local->limits.residual = !run->audit.level ? INFINITY : max_of(max_of(run->audit.phi_start, run->residuals.phi_max),

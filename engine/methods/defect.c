@@ -6,8 +6,8 @@
  */
 static inline void interpolate_rates(const Step *step, double theta, int n, double *restrict dy)
 {
-    differentiate_dense_output(step->h, (const double (*)[N_Y])step->dense, step->method->degree, step->method->reversed,
-        theta, n, dy);
+    differentiate_dense_output(step->h, (const double (*)[N_Y])step->dense, step->method->degree,
+        step->method->reversed, theta, n, dy);
 }
 
 /*

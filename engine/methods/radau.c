@@ -117,13 +117,15 @@ static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.2768430
 /* The method Radau IIA of order 5 with three stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense = radau5_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .rejected_h_rho = INFINITY,
-    .limiting_h_rho = INFINITY, .stages = 3, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED, .error_nodes = radau5_error_nodes,
+    .limiting_h_rho = INFINITY, .stages = 3, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED,
+    .error_nodes = radau5_error_nodes,
     .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = RADAU5_ERROR_FRACTION,
     .end_rates = &radau5_end_rates};
 
 /* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .rejected_h_rho = INFINITY,
-    .limiting_h_rho = INFINITY, .stages = 5, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED, .error_nodes = radau9_error_nodes,
+    .limiting_h_rho = INFINITY, .stages = 5, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED,
+    .error_nodes = radau9_error_nodes,
     .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = RADAU9_ERROR_FRACTION,
     .end_rates = &radau9_end_rates};

@@ -165,8 +165,8 @@ static void set_last_step_length(Integrator *run, double h) { run->control.last_
 static void discard_stiff_step_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
 /*
- * Count the steps against the explicit method anew after an event. Between frequent events the steps of the stiff method
- * cannot become longer.
+ * Restart the count of steps against the explicit method, after an event. Between frequent events, the steps of the
+ * stiff method cannot become longer. Does nothing if the run has the stiff method.
  */
 static void restart_contrary_steps(Integrator *run)
 {

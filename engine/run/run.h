@@ -219,7 +219,7 @@ typedef struct {
 
 /*
  * Choice of the method of the next step: `auto` changes to the stiff method and back.
- * Written by: methods/step_length.c, scalar_simd/distance.h.
+ * Written by: methods/step_length.c, methods/step.c, scalar_simd/distance.h.
  * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_controlled_steps.c.
  */
 typedef struct {

@@ -16,7 +16,7 @@
 #define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
 #define BEND_SAFETY 2.0    /* factor on the largest second derivative of a gap that neighbouring stages show */
 #define QUARTER_STAGE_DISTANCE 0.125       /* w/4 for neighbouring stages at most w of a step apart */
-#define MAX_SMALL_FILM_ERROR 0.02    /* of the limit: with smaller errors at the ends, the error inside is measured rarely */
+#define MAX_SMALL_FILM_ERROR 0.02 /* of the limit: below it at the ends, the error inside is measured rarely */
 #define FILM_LENGTH_RATIO 1.5    /* times the last measured step: longer steps are measured */
 #define MAX_UNMEASURED_FILM_STEPS 16.0    /* steps between two measurements */
 #define FORCE_AHEAD 1e-4   /* of a step: length of the motion beyond its end that shows whether a force rises */
@@ -66,7 +66,8 @@ static inline Real compute_flight_length(Real c, Real delta, Real deltadot)
  */
 static inline Mask is_film_measured(Real end_error, Real h, Real film_error, Real film_h, Real n_steps)
 {
-    return (film_error < MAX_SMALL_FILM_ERROR) & (end_error < MAX_SMALL_FILM_ERROR) & (h < FILM_LENGTH_RATIO * film_h) & (n_steps < MAX_UNMEASURED_FILM_STEPS);
+    return (film_error < MAX_SMALL_FILM_ERROR) & (end_error < MAX_SMALL_FILM_ERROR)
+        & (h < FILM_LENGTH_RATIO * film_h) & (n_steps < MAX_UNMEASURED_FILM_STEPS);
 }
 
 /*
