@@ -330,7 +330,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_MIN_STEPS; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
-        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
+        if (!(g < 0.0) || step->passed[k] || k == run->roots.suppressed_switch || meets[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues stages = get_stage_values(step, N_CLEARANCES + k);

@@ -19,7 +19,7 @@ static void flip_ignored_branches(Integrator *run, const Step *step)
 }
 
 /* Search every switching point again: end the suppression of a repeated one. */
-static void clear_suppressed_switch(Integrator *run) { run->roots.skip = -1; }
+static void clear_suppressed_switch(Integrator *run) { run->roots.suppressed_switch = -1; }
 
 /* Return whether any switching function of active branches is negative at the end of a step. */
 static int has_negative_switch_at_end(const Integrator *run, const Step *step)
@@ -50,7 +50,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
-        const int may_pass = is_of_law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
+        const int may_pass = is_of_law || k == run->roots.suppressed_switch; /* fixed steps have no tolerance */
         step->passed[k] = may_pass && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
         has_passed |= step->passed[k];
     }
@@ -86,7 +86,7 @@ static int is_event_ignored(const Integrator *run, const Step *step, int event)
 {
     const int switch_index = event - N_CLEARANCES;
     return switch_index >= 0 && switch_index < N_SWITCHES
-        && (switch_index == run->roots.skip || step->passed[switch_index]);
+        && (switch_index == run->roots.suppressed_switch || step->passed[switch_index]);
 }
 
 /* Return the node, as a fraction of the step, of the stage at which an event function was lowest; 1: no stage. */
@@ -396,7 +396,7 @@ static double find_first_event(Integrator *run, Step *step, const Parameters *p,
 }
 
 /* Reset the root finding of a run: no switching point was crossed, none is suppressed. */
-static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
+static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.suppressed_switch = -1; }
 
 /*
  * Set the resolution of event times: 1e-12 s, less near the end of the run: at most 1e-11 of the time left (s). With
@@ -436,7 +436,7 @@ static void suppress_repeated_switch(Integrator *run, int switch_index, const do
         && (meets[switch_index]
             || (run->control.fixed <= 0.0
                 && compute_rate_jump(run, dy_before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
-    run->roots.skip = is_repeated ? switch_index : -1;
+    run->roots.suppressed_switch = is_repeated ? switch_index : -1;
     run->roots.monitor = is_repeated ? monitor : 0.0;
     run->roots.crossed = switch_index;
     run->roots.t_crossed = run->t;
