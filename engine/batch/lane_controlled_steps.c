@@ -204,7 +204,7 @@ static void move_to_step_end(
     }
 #if IMPLICIT_STAGES
     lanes->newton.last_h = select_value(accepted, t - lanes->t, lanes->newton.last_h);
-    lanes->newton.continues |= accepted;
+    lanes->newton.can_extrapolate |= accepted;
     local_steps->convergence_rate =
         select_value(accepted, lanes->newton.convergence_rate, local_steps->convergence_rate);
 #endif

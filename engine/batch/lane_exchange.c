@@ -63,9 +63,9 @@ static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
     update_iteration_history(run);
     lanes->newton.last_h[k] = run->newton.last_h;
     lanes->newton.convergence_rate[k] = run->newton.convergence_rate;
-    lanes->newton.force_found[k] = run->newton.force_found;
-    lanes->newton.continues[k] = -run->newton.continues;
-    lanes->films.lightest[k] = run->films.lightest;
+    lanes->newton.film_force_tol[k] = run->newton.film_force_tol;
+    lanes->newton.can_extrapolate[k] = -run->newton.can_extrapolate;
+    lanes->films.lightest_mass[k] = run->films.lightest_mass;
     for (int kind = 0; kind < 2; kind++)
         lanes->norm.min_size[kind][k] = run->norm.min_size[kind];
     for (int j = 0; j < N_Y; j++) {

@@ -245,14 +245,14 @@ typedef struct {
     } series;
 #else
     struct {
-        Lanes lightest;
+        Lanes lightest_mass;
     } films;
     struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
-        Lanes last_h, before_y[N_Y], before_dy[N_Y], convergence_rate, force_found;
+        Lanes last_h, before_y[N_Y], before_dy[N_Y], convergence_rate, film_force_tol;
         Lanes evaluations; /* right-hand sides of the trial step */
-        LaneBits continues, has_no_stages;
+        LaneBits can_extrapolate, has_no_stages;
 #endif
     } newton;
 #endif

@@ -47,7 +47,7 @@ static int is_ordinary_step(const Integrator *run)
             || (choice->steps_since_change < MAX_COMPARE_STEPS && run->control.h_stiff > 0.0);
     const int is_regular = run->near.n_undetected == 0 && run->near.n_failed == 0
         && run->discrete.singular_policy == SINGULAR_CONTINUE;
-    return !run->control.attempt.was_rejected && !run->control.first && run->roots.skip < 0 && is_regular
+    return !run->control.attempt.was_rejected && !run->control.first && run->roots.suppressed_switch < 0 && is_regular
         && !is_compared && run->control.fixed <= 0.0 && run->counts.steps > 1 && run->discrete.is_frozen;
 }
 

@@ -69,7 +69,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     status = record_accepted_state(run, knows_residuals ? step->residual : NULL, p);
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
-    if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */
+    if (!status && event < 0 && run->roots.suppressed_switch >= 0) { /* away from it, on either branch */
         clear_suppressed_switch(run);
         status = update_branches_at_current_state(run, -1, p);
     }

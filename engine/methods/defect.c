@@ -146,10 +146,10 @@ static double find_lightest_mass(const Parameters *p)
 }
 
 /*
- * Set run->films.lightest, the lightest mass of the scene (kg), by which errors of film forces are scaled; infinity
+ * Set run->films.lightest_mass (kg), by which errors of film forces are scaled: the smallest mass of a body, infinity
  * without films. Called when the integration begins.
  */
 static void set_film_mass_scale(Integrator *run, const Parameters *p)
 {
-    run->films.lightest = has_films() ? find_lightest_mass(p) : INFINITY;
+    run->films.lightest_mass = has_films() ? find_lightest_mass(p) : INFINITY;
 }

@@ -68,8 +68,8 @@ static void discard_stages(Step *step)
 {
     step->n_stored_stages = 0;
     step->stage_values_lane = NULL;
-    step->spread[0] = -1.0;
-    step->swings = -1;
+    step->term_range[0] = -1.0;
+    step->may_force_oscillate = -1;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = INFINITY;
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {

@@ -264,7 +264,7 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
     factor = min_of(max_factor, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
     record_first_step_length(run, step);
-    if (step->h * factor > run->control.h || (is_uncut && run->roots.skip < 0) || factor < 1.0)
+    if (step->h * factor > run->control.h || (is_uncut && run->roots.suppressed_switch < 0) || factor < 1.0)
         run->control.h = step->h * factor;
 }
 
@@ -345,7 +345,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
         h = compute_fixed_step_length(run, t_end, &end);
         run->discrete.is_frozen = DRIVE_IMPULSES; /* at the jump of a drive constraints have two rates */
     } else {
-        h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
+        h = run->roots.suppressed_switch >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
         h = limit_length_by_flight(
             run, limit_length_by_separation(run, min_of(limit_length_by_rejection(run, h),
                 compute_flight_step_limit(run, NULL, p))), p);

@@ -316,8 +316,8 @@ static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index
  * steps that the audit selects.
  *
  * Not checked: the first AUDIT_MIN_STEPS steps, times just after the beginning, and functions that the step passes or
- * suppresses. Also omitted are functions that are continuous at their switching point (`is_continuous_switch`), values below their
- * uncertainty, and jumps that have just happened.
+ * suppresses. Also omitted are functions that are continuous at their switching point (`is_continuous_switch`), values
+ * below their uncertainty, and jumps that have just happened.
  */
 static void check_frozen_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
@@ -330,7 +330,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_MIN_STEPS; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
-        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || is_continuous_switch[k]
+        if (!(g < 0.0) || step->passed[k] || k == run->roots.suppressed_switch || is_continuous_switch[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues stages = get_stage_values(step, N_CLEARANCES + k);

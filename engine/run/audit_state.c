@@ -48,7 +48,7 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
         return;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || is_continuous_switch[k]) {
+        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.suppressed_switch || is_continuous_switch[k]) {
             audit->n_wrong_steps[k] = 0;
             continue;
         }

@@ -9,8 +9,8 @@
  * previous one. A repeated attempt leaves them unchanged.
  *
  * Also set the distance of both beginnings (last_h, s; 0 unless the last step was stored), the accuracy of film forces
- * (force_found), and newton.continues. That is whether stages can be extrapolated from the last step: last_h > 0 and no
- * attempt at this step was rejected.
+ * (film_force_tol), and newton.can_extrapolate. That is whether stages can be extrapolated from the last step: last_h >
+ * 0 and no attempt at this step was rejected.
  */
 static inline void update_iteration_history(Integrator *run)
 {
@@ -28,8 +28,8 @@ static inline void update_iteration_history(Integrator *run)
         run->newton.seen_steps = run->counts.steps;
     }
     run->newton.last_h = run->t - run->newton.before_t;
-    run->newton.force_found = min_of(1e-2, FILM_FORCE_TOL / run->norm.inverse_scale[2 * N_X - 1]);
-    run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.was_rejected;
+    run->newton.film_force_tol = min_of(1e-2, FILM_FORCE_TOL / run->norm.inverse_scale[2 * N_X - 1]);
+    run->newton.can_extrapolate = run->newton.last_h > 0.0 && !run->control.attempt.was_rejected;
 }
 
 #endif

@@ -104,8 +104,8 @@ typedef struct {
     double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if watched */
     unsigned char near[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
-    double spread[AT_LEAST_ONE(N_TERMS)];         /* range of terms of time alone over the step; -1: unknown */
-    int swings;                                   /* whether a force may oscillate between stages (watch/forces.c) */
+    double term_range[AT_LEAST_ONE(N_TERMS)];     /* range of terms of time alone over the step; -1: unknown */
+    int may_force_oscillate;                      /* whether a force may oscillate between stages (watch/forces.c) */
 } Step;
 
 enum { N_DENSE_SAMPLES = 16 };
@@ -188,7 +188,7 @@ typedef struct {
  * film, kg. Written by: methods/defect.c. Copied by: batch/lane_exchange.c, batch/lane_controlled_steps.c.
  */
 typedef struct {
-    double error, h, lightest;
+    double error, h, lightest_mass;
     long steps;
 } FilmErrors;
 
@@ -278,8 +278,8 @@ typedef struct {
     /* beginnings of this step and the step before, their distance (s); rate of convergence of the last iterations */
     StepStart now;
     long seen_steps;
-    double before_t, before_y[N_Y], before_dy[N_Y], last_h, convergence_rate, force_found;
-    int continues;
+    double before_t, before_y[N_Y], before_dy[N_Y], last_h, convergence_rate, film_force_tol;
+    int can_extrapolate;
 #endif
 } NewtonIteration;
 
@@ -289,7 +289,7 @@ typedef struct {
  */
 typedef struct {
     double time_resolution; /* s: resolution of the times of events; smaller in a short run */
-    int crossed, skip; /* last crossed switching function; one that the next step does not watch, -1: none */
+    int crossed, suppressed_switch; /* last crossed switching function; not watched in the next step; -1: none */
     double t_crossed, monitor; /* s: time of that crossing; step length after which it is watched again */
     DenseSamples samples;
 } RootFinding;

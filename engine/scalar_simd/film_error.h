@@ -39,7 +39,7 @@ static Real compute_relative_film_error(const IntegratorOf *run, const StepOf *s
 {
     const Real rate_rounding = RATE_ROUNDING / step->h;
     Real difference[2] = {make_real(0.0), make_real(0.0)}, largest[2], fraction = make_real(0.0);
-    largest[0] = film_force / run->films.lightest;
+    largest[0] = film_force / run->films.lightest_mass;
     largest[1] = largest[0] * run->norm.min_size[1] / run->norm.min_size[0];
     for (int k = N_X; k < 2 * N_X; k++) {
         const int kind = !!is_angle[k - N_X];

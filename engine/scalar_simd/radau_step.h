@@ -2,7 +2,7 @@
 
 /*
  * Guess the stages z of a step of length h (s), relative to its beginning, as the start of Newton's iteration. If the
- * step continues the last one (newton.continues), its Hermite cubic is extrapolated. Else the rates at the beginning
+ * step continues the last one (newton.can_extrapolate), its Hermite cubic is extrapolated. Else the rates at the beginning
  * are integrated, for positions with accelerations.
  */
 static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
@@ -16,7 +16,7 @@ static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
             const Real by_rates = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
-            z[s][i] = select_value(run->newton.continues, x * (d1 + x * (c2 + x * c3)), by_rates);
+            z[s][i] = select_value(run->newton.can_extrapolate, x * (d1 + x * (c2 + x * c3)), by_rates);
         }
     }
 }
@@ -173,12 +173,12 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
         if (pass > has_films()) {
             /* the change no longer decreases */
             is_found |= is_active & invert_mask(convergence_rate < 0.9) & (distance <= RADAU_MAX_NOISE_RATIO * rounding)
-                & (force_change <= run->newton.force_found);
+                & (force_change <= run->newton.film_force_tol);
             *has_failed |= is_active & invert_mask(is_found | (convergence_rate < max_ratio));
             is_active &= is_found | (convergence_rate < max_ratio);
         }
         is_found |= is_active & (convergence_rate * distance <= max_error * (1.0 - convergence_rate))
-            & (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate));
+            & (convergence_rate * force_change <= run->newton.film_force_tol * (1.0 - convergence_rate));
         run->newton.convergence_rate = select_value(is_found, real_max(convergence_rate, make_real(1e-3)),
             run->newton.convergence_rate);
         is_active &= invert_mask(is_found);

@@ -20,7 +20,7 @@ static void flip_ignored_branches(Integrator *run, const Step *step)
 }
 
 /* Search every switching point again: end the suppression of a repeated one. */
-static void clear_suppressed_switch(Integrator *run) { run->roots.skip = -1; }
+static void clear_suppressed_switch(Integrator *run) { run->roots.suppressed_switch = -1; }
 
 /* Return whether any switching function of active branches is negative at the end of a step. */
 static int has_negative_switch_at_end(const Integrator *run, const Step *step)
@@ -52,7 +52,7 @@ static int ignore_negligible_switches(Integrator *run, Step *step, const Paramet
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = is_continuous_switch[k] && watched_index[gap_function] < 0 && run->control.fixed <= 0.0;
-        const int may_pass = is_of_law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
+        const int may_pass = is_of_law || k == run->roots.suppressed_switch; /* fixed steps have no tolerance to compare with */
         step->passed[k] = may_pass && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
         has_passed |= step->passed[k];
     }
@@ -82,13 +82,13 @@ static int ignore_negligible_switches(Integrator *run, Step *step, const Paramet
 
 /*
  * Return whether an event function is not searched for a zero: that of a switching point that is suppressed
- * (roots.skip) or that this step passes (step->passed). event: its number.
+ * (roots.suppressed_switch) or that this step passes (step->passed). event: its number.
  */
 static int is_event_ignored(const Integrator *run, const Step *step, int event)
 {
     const int switch_index = event - N_CLEARANCES;
     return switch_index >= 0 && switch_index < N_SWITCHES
-        && (switch_index == run->roots.skip || step->passed[switch_index]);
+        && (switch_index == run->roots.suppressed_switch || step->passed[switch_index]);
 }
 
 /*
@@ -404,7 +404,7 @@ static double find_first_event(Integrator *run, Step *step, const Parameters *p,
 }
 
 /* Reset the root finding of a run: no switching point is stored as crossed, none is suppressed. */
-static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
+static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.suppressed_switch = -1; }
 
 /*
  * Set the resolution of event times: 1e-12 s, less near the end of the run: at most 1e-11 of the time left (s). With
@@ -431,7 +431,7 @@ static double compute_rate_jump(const Integrator *run, const double *dy_before)
 }
 
 /*
- * Suppress a switching point in the next step (roots.skip) if the motion crossed it twice within a thousandth of the
+ * Suppress a switching point in the next step (roots.suppressed_switch) if the motion crossed it twice within a thousandth of the
  * step length; otherwise end a suppression. An example is a journal at rest in its film. Called at each change of
  * branch. Both branches must meet there, or differ by rounding only (dy_before: rates of the previous branch). The next
  * step is limited to roots.monitor: 20 times the maximum of the time between the crossings, the previous limit and 100
@@ -445,7 +445,7 @@ static void suppress_repeated_switch(Integrator *run, int switch_index, const do
         && (is_continuous_switch[switch_index]
             || (run->control.fixed <= 0.0
                 && compute_rate_jump(run, dy_before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
-    run->roots.skip = is_repeated ? switch_index : -1;
+    run->roots.suppressed_switch = is_repeated ? switch_index : -1;
     run->roots.monitor = is_repeated ? monitor : 0.0;
     run->roots.crossed = switch_index;
     run->roots.t_crossed = run->t;

@@ -98,10 +98,10 @@ static int may_terms_oscillate_between(Step *step, double begin, double end, con
 {
     Interval term[N_TERMS], term_low[N_TERMS], term_middle[N_TERMS], term_high[N_TERMS];
     const double width = end - begin;
-    if (step->spread[0] < 0.0) {
+    if (step->term_range[0] < 0.0) {
         bound_time_terms(step->t, step->h, 0.0, 1.0, p, term);
         for (int k = 0; k < N_TERMS; k++)
-            step->spread[k] = term[k].hi - term[k].lo;
+            step->term_range[k] = term[k].hi - term[k].lo;
     }
     bound_time_terms(step->t, step->h, begin, end, p, term);
     bound_time_terms(step->t, step->h, begin, begin, p, term_low);
@@ -112,7 +112,7 @@ static int may_terms_oscillate_between(Step *step, double begin, double end, con
             second_difference = fabs(term_low[k].lo - 2.0 * term_middle[k].lo + term_high[k].lo);
         const double excess = max_of(width * term[k].max_slope - slope, slope - width * term[k].min_slope)
             - 2.0 * second_difference;
-        if (!(excess <= MAX_TERM_EXCESS * step->spread[k]))
+        if (!(excess <= MAX_TERM_EXCESS * step->term_range[k]))
             return 1;
     }
     return 0;
@@ -127,19 +127,19 @@ static int may_terms_oscillate_between(Step *step, double begin, double end, con
 
 /*
  * Return whether a term of time alone may oscillate between neighbouring ones of n samples. Samples are tested only if
- * a term may oscillate over the whole step. The result is stored in step->swings at the first call for a step (before:
- * negative).
+ * a term may oscillate over the whole step. The result is stored in step->may_force_oscillate at the first call for a
+ * step (before: negative).
  */
 static int may_terms_oscillate_between_stages(Step *step, const Sample *samples, int n, const Parameters *p)
 {
-    if (step->swings < 0) {
-        step->swings = may_terms_oscillate_between(step, 0.0, 1.0, p);
-        for (int i = 1, is_tested = step->swings; i < n && is_tested; i++) {
-            step->swings = may_terms_oscillate_between(step, samples[i - 1].s, samples[i].s, p);
-            is_tested = !step->swings;
+    if (step->may_force_oscillate < 0) {
+        step->may_force_oscillate = may_terms_oscillate_between(step, 0.0, 1.0, p);
+        for (int i = 1, is_tested = step->may_force_oscillate; i < n && is_tested; i++) {
+            step->may_force_oscillate = may_terms_oscillate_between(step, samples[i - 1].s, samples[i].s, p);
+            is_tested = !step->may_force_oscillate;
         }
     }
-    return step->swings;
+    return step->may_force_oscillate;
 }
 
 /*

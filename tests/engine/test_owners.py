@@ -190,7 +190,7 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
         ("memcpy(run->norm.speed, speed, sizeof speed);", "ErrorNorm"),
         ("double *h = &run->control.h;", "StepControl"),
         ("frexp(x, &run->choice.n_contrary_steps);", "MethodChoice"),
-        ("*run = (Integrator){.t = t, .roots = {.skip = -1}};", "RootFinding"),
+        ("*run = (Integrator){.t = t, .roots = {.suppressed_switch = -1}};", "RootFinding"),
         ("static void f(StepControl *control) { control->h = 1.0; }", "StepControl"),
         ("if (run->contacts.n_impacts == 0 && run->control.h <= 1.0) return;", None),
         ("memcpy(speed, run->norm.speed, sizeof speed);", None),

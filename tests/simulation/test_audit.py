@@ -200,7 +200,7 @@ def test_film_forces_between_the_ends_of_steps(tmp_path: Path) -> None:
         ("engine/methods/radau.c", "i < N_X && !has_films()", "i < N_X"),
         (
             "engine/scalar_simd/radau_step.h",
-            "& (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate))",
+            "& (convergence_rate * force_change <= run->newton.film_force_tol * (1.0 - convergence_rate))",
             "",
         ),
         NO_FILM_ERROR,
