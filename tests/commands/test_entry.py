@@ -177,7 +177,7 @@ def test_a_second_ctrl_c_while_python_ends_leaves_the_exit_code(tmp_path: Path) 
     code = TERMINATED.replace("os.getpid(), signal.SIGTERM", "os.getpid(), signal.SIGINT") + LATE + START
     words = ["run", "pendulum", "--scene", "ideal", "--out", "out"]
     done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 130 and done.stderr.startswith("interrupted: what was computed"), done.stderr
+    assert done.returncode == 130 and done.stderr.startswith("interrupted: the computed results"), done.stderr
     code = TERMINATED + LATE + START
     words = ["check", "pendulum"]
     done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)

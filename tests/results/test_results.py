@@ -86,7 +86,7 @@ def test_an_unknown_name_names_the_nearest(run: Result) -> None:
         run["S9.yy"]
     with pytest.raises(UnknownNameError, match=r"parameters\[\"omega\"\]"):
         run["omega"]
-    with pytest.raises(UnknownNameError, match="named 0"):
+    with pytest.raises(UnknownNameError, match="no series 0"):
         run[0]  # type: ignore[index]
 
 

@@ -95,7 +95,7 @@ def test_a_run_is_drawn_in_its_units(run: Result) -> None:
     np.testing.assert_allclose(left.lines[1].get_ydata(), apply_low_pass(run.t, run["S9.y"], rate / 10, 4) * 1e3)
     with pytest.raises(UnknownNameError):
         run.plot.phase("S9.z")
-    with pytest.raises(BadValueError, match="no rate"):
+    with pytest.raises(BadValueError, match="no series of its rate"):
         run.plot.phase("A.F")
     short = replace(run, t=run.t[:5], q=run.q[:5], stored={})
     with pytest.raises(BadValueError, match="nine samples"):

@@ -270,8 +270,8 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
     for wrong, why in (
         (["report"], "the folder is missing"),
         (["report", "none.study"], "not a study folder"),
-        (["mass.yaml", "x"], "takes one file"),
-        (["mass.yaml", "--out", "x.html"], "a study is a folder"),
+        (["mass.yaml", "x"], "expected one file"),
+        (["mass.yaml", "--out", "x.html"], "expected a folder"),
         (["report", str(folder), "--out", "page.txt"], "ends in .html"),
     ):
         message = CliRunner().invoke(app, ["study", *wrong])
