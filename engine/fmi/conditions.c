@@ -65,7 +65,7 @@ static int validate_parameters(const Model *model, double size)
     }
     for (int k = 0; k < FMU_CLEARANCES; k++)
         if (model->p[fmu_clearances[k]] < FMU_MIN_RELATIVE_CLEARANCE * size) {
-            snprintf(text, sizeof text, "the clearance of %s is %g m, below what doubles tell apart at the "
+            snprintf(text, sizeof text, "the clearance of %s is %g m, below the rounding of doubles at the "
                 "mechanism's size (%.3g m); expected %.2g m at least", fmu_joints[k], model->p[fmu_clearances[k]],
                 size, FMU_MIN_RELATIVE_CLEARANCE * size);
             return log_error(model, text), 0;
