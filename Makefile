@@ -90,7 +90,7 @@ bench: setup  ## run time against error; one right-hand side compared with hand-
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
 	@.venv/bin/python -m benchmarks.rhs
 
-race:  ## time to reach an error, gudgeon and other programs; writes docs/race.md. 20 minutes, on an idle machine. ARGS="--work dry"
+race:  ## time to reach an error, gudgeon and other programs; writes docs/race.md. about 40 minutes, on an idle machine. ARGS="--work dry"
 	@sh tools/setup all,bench
 	@for package in mujoco pin drake casadi diffrax; do \
 		.venv/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt $$package || \
