@@ -14,6 +14,8 @@ import pytest
 from scipy.special import ellipj, ellipk
 
 import gudgeon
+import tests.benches  # noqa: F401
+from benchmarks.methods import write_journals
 from gudgeon.errors import SolverError
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -342,6 +344,17 @@ def test_auto_leaves_stiff_steps_that_do_not_pay() -> None:
     )
     assert auto.steps < 1.2 * explicit.steps
     assert 0 < auto.stiff_steps < 0.3 * auto.steps
+
+
+def test_auto_stays_explicit_between_frequent_events(tmp_path: Path) -> None:
+    """Four dry joints: contacts begin and end every few steps, between which stiff steps cannot become longer."""
+    file = tmp_path / "joints.yaml"
+    file.write_text(write_journals(4), encoding="utf-8")
+    joints = gudgeon.load(file, "dry", quick=True)
+    auto, explicit = (
+        joints.simulate(0.1, output=1, method=method, rtol=1e-4).diagnostics for method in ("auto", "dop853")
+    )
+    assert auto.stiff_steps == 0 and auto.steps == explicit.steps
 
 
 @needs_compiler
