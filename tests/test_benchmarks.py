@@ -251,7 +251,9 @@ def test_exponents_of_growth_are_fitted_over_the_bodies() -> None:
     ]
     assert [row.load for row in rows] == pytest.approx([1.2, 4.8, 19.2])
     cells = [cell.strip() for cell in growth.table(rows)[-1].split("|")]
-    assert cells[1:-1] == ["exponent", "", "1.00", "1.00", "1.00", "1.00", "2.00", "1.00", "0.00", "1.50", "0.00"]
+    assert cells[1:-1] == ["exponent", "1.00", "1.00", "1.00", "1.00", "2.00", "1.00", "0.00", "1.50", "0.00"]
+    assert "bodies" not in growth.table(rows)[0]  # each N is the number of bodies
+    assert "bodies" in growth.table([replace(row, bodies=row.n + 1) for row in rows])[0]
 
 
 @needs_compiler
