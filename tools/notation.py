@@ -387,7 +387,7 @@ def make_notation_page() -> str:
         "",
         "## Other symbols of the equations",
         "",
-        "These symbols are in no other table of this page. Most of them stand for intermediate or general quantities.",
+        "Most of these symbols stand for intermediate or general quantities.",
         "The last column is the section of [Physics](physics.md#symbols-and-sign-conventions) that uses the symbol.",
         "",
     ]
