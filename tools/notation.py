@@ -31,9 +31,9 @@ from gudgeon.results.series import CLEARANCE
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
 LEAD = """# Notation
 
-This page lists each symbol of the equations with its sign convention, its unit and its names in the paper, YAML, Python
-and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper" is Chen, Gao
-and Wang (2022).
+This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper, YAML,
+Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper" is
+Chen, Gao and Wang (2022).
 
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
@@ -44,7 +44,7 @@ and Wang (2022).
 - The letter $c$ is the clearance of a joint: radial in a bearing, on each side in a guide.
 - All names in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is $-F_n$.
 - Some names in C differ from the term of their quantity: see [the table](#names-in-c-that-differ-from-the-term).
-- [Physics](physics.md) gives the equations. `make tables` writes this page from the declarations.
+- `make tables` writes this page from the declarations. A test compares it with the symbols of physics.
 
 Example: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
 `rhs->clearance[i]` in C. It is positive if the journal's surface moves along $\\mathbf t$ relative to the bearing's.
@@ -329,7 +329,7 @@ def make_notation_page() -> str:
         "The unit vector $\\mathbf n$ points from the centre of the bearing to the centre of the journal.",
         "The unit vector $\\mathbf t$ is $\\mathbf n$ turned by +90°. The forces act on the journal.",
         "In a guide, `JOINT` is a corner, such as `guide.front_upper`. The corner then replaces the journal, and its",
-        "wall replaces the bearing.",
+        "wall replaces the bearing. The series `ex` and `ey` of a corner are the components of $e\\,\\mathbf n$.",
         "",
         'In Python, `run["JOINT.delta"]` returns a series. In C, the structure `rhs->clearance[i]` contains the',
         "quantities of the first table. Those of the second table are local variables.",
