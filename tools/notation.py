@@ -31,9 +31,9 @@ from gudgeon.results.series import CLEARANCE
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
 LEAD = """# Notation
 
-This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper, YAML,
-Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper" is
-Chen, Gao and Wang (2022).
+This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper,
+YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper"
+is Chen, Gao and Wang (2022).
 
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
