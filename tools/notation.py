@@ -43,6 +43,7 @@ is Chen, Gao and Wang (2022).
 - Within one law, each symbol stands for one quantity. The equation of each law defines its $K$, $S$ and $v_0$.
 - The letter $c$ is the clearance of a joint: radial in a bearing, on each side in a guide.
 - All names in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is $-F_n$.
+  The attribute `F_n` of a joint in the NumPy functions (`equations.dynamics`) is $-F_n$ too.
 - Some names in C differ from the term of their quantity: see [the table](#names-in-c-that-differ-from-the-term).
 - `make tables` writes this page from the declarations. A test compares it with the symbols of physics.
 
