@@ -20,6 +20,9 @@ def test_the_notation_is_current_and_each_symbol_has_one_meaning() -> None:
     assert (ROOT / "docs" / "notation.md").read_text(encoding="utf-8") == written
     for row in ("| $c$ | radial clearance", "`JOINT.deltadot` | `deltadot` | m/s |", "| `hertz` |"):
         assert row in written
+    physics = (ROOT / "docs" / "physics.md").read_text(encoding="utf-8")
+    assert tool["find_missing_symbols"](written, physics) == []
+    assert tool["find_missing_symbols"](written.replace("| $e_r$ |", "| $e$ |"), physics) == ["e_r"]
     find = tool["find_ambiguous_symbols"]
     assert find(written) == []
     assert find(written.replace("| $V$ | potential energy", "| $T$ | potential energy")) != []

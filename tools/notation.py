@@ -31,18 +31,21 @@ from gudgeon.results.series import CLEARANCE
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
 LEAD = """# Notation
 
-This page lists the symbol, the sign convention and the unit of each quantity, and its names in the paper, YAML, Python
-and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper" is Chen, Gao
-and Wang (2022).
+This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper,
+YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper"
+is Chen, Gao and Wang (2022).
 
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
-- The sign – marks a quantity without a name in that place.
+- The sign – marks a quantity without a name in that place. [The last table](#other-symbols-of-the-equations) lists the
+  symbols of intermediate and general quantities.
 - Bold letters are vectors. In each table, a symbol stands for one quantity.
 - Within one law, each symbol stands for one quantity. The equation of each law defines its $K$, $S$ and $v_0$.
 - The letter $c$ is the clearance of a joint: radial in a bearing, on each side in a guide.
 - All names in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is $-F_n$.
-- [Physics](physics.md) gives the equations. `make tables` writes this page from the declarations.
+  The attribute `F_n` of a joint in the NumPy functions (`equations.dynamics`) is $-F_n$ too.
+- Some names in C differ from the term of their quantity: see [the table](#names-in-c-that-differ-from-the-term).
+- `make tables` writes this page from the declarations. A test compares it with the symbols of physics.
 
 Example: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
 `rhs->clearance[i]` in C. It is positive if the journal's surface moves along $\\mathbf t$ relative to the bearing's.
@@ -51,14 +54,14 @@ NONE = "–"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
     ("t", "time", "t", "`t`", "`run.t`", "`t`", "s"),
     ("q", "coordinates of all bodies", "q", "`BODY.x`, `.y`, `.theta`", "`run.q`", "`q`", "m, rad"),
-    ("\\dot q", "velocities: rates of q", "\\dot q", "`BODY.vx`, `.vy`, `.omega`", "`run.v`", "`v`", "m/s, rad/s"),
-    ("\\ddot q", "accelerations: second rates of q", "\\ddot q", "", "`run.a`", "`a`", "m/s², rad/s²"),
+    ("\\dot q", "velocities: rates of $q$", "\\dot q", "`BODY.vx`, `.vy`, `.omega`", "`run.v`", "`v`", "m/s, rad/s"),
+    ("\\ddot q", "accelerations: second rates of $q$", "\\ddot q", "", "`run.a`", "`a`", "m/s², rad/s²"),
     ("M", "mass matrix, diagonal", "M", "", "`equations.mass(p)`", "`mass_matrix`", "kg, kg·m²"),
-    ("\\Phi", "constraint equations, Φ = 0", "\\Phi", "", "`equations.phi(t, q, p)`", "`constraints`", "m, rad"),
+    ("\\Phi", "constraint equations, $\\Phi = 0$", "\\Phi", "", "`equations.phi(t, q, p)`", "`constraints`", "m, rad"),
     ("\\Phi_q", "Jacobian of the constraints", "\\Phi_q", "", "`equations.phi_q(t, q, p)`", "`jacobian`", "1, m"),
     (
         "\\nu",
-        "right-hand side of the velocity equation, ν = −∂Φ/∂t",
+        "right-hand side of the velocity constraints, $\\nu = -\\Phi_t$",
         "\\upsilon",
         "",
         "`equations.nu(t, q, p)`",
@@ -67,7 +70,7 @@ SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
     ),
     (
         "\\gamma",
-        "right-hand side of the acceleration equation",
+        "right-hand side of the acceleration constraints",
         "\\gamma",
         "",
         "`equations.gamma(t, q, v, p)`",
@@ -75,8 +78,8 @@ SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
         "m/s², rad/s²",
     ),
     ("\\lambda", "Lagrange multipliers", "\\lambda", "", '`run["lambda.ROW"]`', "`rhs->lambda`", "N, N·m"),
-    ("\\alpha", "Baumgarte's gain of the rates of Φ", "\\alpha", "", "`baumgarte.alpha`", "`p->alpha_`", "1/s"),
-    ("\\beta", "Baumgarte's gain of Φ", "\\beta", "", "`baumgarte.beta`", "`p->beta_`", "1/s"),
+    ("\\alpha", "Baumgarte's gain of the rates of $\\Phi$", "\\alpha", "", "`baumgarte.alpha`", "`p->alpha_`", "1/s"),
+    ("\\beta", "Baumgarte's gain of $\\Phi$", "\\beta", "", "`baumgarte.beta`", "`p->beta_`", "1/s"),
 )
 PLAY = {  # series: symbol of the equations, the paper's symbol
     "Fx": (steps.F_x, ""),
@@ -93,42 +96,45 @@ PLAY = {  # series: symbol of the equations, the paper's symbol
 MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "e": "eccentricity: distance of the centres of journal and bearing",
     "deltadot": "rate of the penetration, positive in approach",
-    "delta": "penetration, δ = e − c; in a non-circular bearing, c is the clearance at the angle of the journal",
+    "delta": "penetration, $\\delta = e - c$; in a non-circular bearing, $c$ is that at the angle of the journal",
     "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
-    "in a film alone, F_n = −F_r. The member in C is the component along $\\mathbf n$",
+    "in a film alone, $F_n = -F_r$. The member in C is the component along $\\mathbf n$",
     "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
     "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
 OF_JOINT = {"ex": "`start.play.JOINT.e`", "ey": "`start.play.JOINT.e`"}  # YAML keys of initial values
 C_MEMBER = {"Fn": "-F_n", "Ft": "F_t", "vt": "v_t"}
-VECTORS = (  # symbol, quantity, Python, C variables, unit
+LOCAL_VARIABLES = (  # symbol, quantity, Python, C variables, unit
     ("\\mathbf e", "eccentricity vector: from the centre of the bearing to that of the journal", "", "e_x, e_y", "m"),
     ("\\mathbf n", "unit normal: along $\\mathbf e$, in a guide from the middle outwards", "", "n_x, n_y", "1"),
     ("\\mathbf t", "unit tangent: $\\mathbf n$ turned by +90°", "", "", "1"),
+    ("R_j", "radius of the journal, $R_i - c$", "", "p->R_j_NAME_", "m"),
+    ("M_i", "moment on the bearing about its centre; in a guide, on the guide about its point", "", "M_i", "N·m"),
+    ("M_j", "moment on the journal about its centre; in a guide, on the slider about the corner", "", "M_j", "N·m"),
 )
 STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (
         steps.stored,
-        "approach speed: rate of δ at the onset",
+        "approach speed: rate of $\\delta$ at the onset",
         "`JOINT.deltadot_minus`",
         "contact->deltadot_minus",
         "m/s",
     ),
-    (steps.epsilon, "eccentricity ratio e/c", "`JOINT.eps`", "epsilon", "1"),
+    (steps.epsilon, "eccentricity ratio $e/c$", "`JOINT.eps`", "epsilon", "1"),
     (steps.omega_i, "angular velocity of the bearing", "`BODY.omega`", "omega_i", "rad/s"),
     (steps.omega_j, "angular velocity of the journal", "`BODY.omega`", "omega_j", "rad/s"),
-    (steps.a_i, "lever arm of F_t about the centre of the bearing", "", "a_i", "m"),
-    (steps.a_j, "lever arm of F_t about the centre of the journal", "", "a_j", "m"),
-    (steps.w_n, "effective squeeze velocity of a film along $\\mathbf n$, divided by c", "", "w_n", "1/s"),
-    (steps.w_t, "effective squeeze velocity of a film along $\\mathbf t$, divided by c", "", "w_t", "1/s"),
+    (steps.a_i, "lever arm of $F_t$ about the centre of the bearing", "", "a_i", "m"),
+    (steps.a_j, "lever arm of $F_t$ about the centre of the journal", "", "a_j", "m"),
+    (steps.w_n, "effective squeeze velocity of a film along $\\mathbf n$, divided by $c$", "", "w_n", "1/s"),
+    (steps.w_t, "effective squeeze velocity of a film along $\\mathbf t$, divided by $c$", "", "w_t", "1/s"),
     (sp.Symbol("F_r", real=True), "force of a film along $\\mathbf n$", "", "F_r", "N"),
-    (steps.steep, "length of the gradient of δ in a bearing with a contour", "", "steep", "1"),
+    (steps.steep, "length of the gradient of $\\delta$ in a bearing with a contour", "", "steep", "1"),
     (steps.contour_depth, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
     (steps.beta_i, "angle of $\\mathbf e$ in the body of the bearing, with a contour", "", "beta_i", "rad"),
 )
 LAMBDA_N = NAMES[sp.Symbol(CONSTRAINT_VARIABLES[0], real=True)].latex
 IMPACTS = (  # symbol, quantity, Python, C, unit
-    ("\\dot{\\delta}^{+}", "rate of δ after the impact", "", "", "m/s"),
+    ("\\dot{\\delta}^{+}", "rate of $\\delta$ after the impact", "", "", "m/s"),
     (
         "P_n",
         "impulse along $-\\mathbf n$ on the second body",
@@ -154,21 +160,21 @@ IMPACTS = (  # symbol, quantity, Python, C, unit
     ("v_t^{+}", "slip after the impact", "", "", "m/s"),
     (
         "G_{kl}",
-        "Delassus operator: −∂δ̈/∂F_n, of contact k by the force in contact l",
+        "Delassus operator: $-\\partial\\ddot\\delta_k/\\partial F_{n,l}$, of contact $k$ by the force in contact $l$",
         "",
         "`contacts->D[k][l]`",
         "1/kg",
     ),
-    ("G_t", "change of the slip per unit of P_t", "", "`S[k][k]`", "1/kg"),
+    ("G_t", "change of the slip per unit of $P_t$", "", "`S[k][k]`", "1/kg"),
     (LAMBDA_N, "multiplier of a closed contact: its normal force", "`JOINT.Fn`", "`contact->force`", "N"),
 )
 MIXED = (
     (NAMES[steps.share].latex, "fraction of the load that the dry contact carries", "", "`share`", "1"),
     ("h", "film thickness between the mean surfaces", "", "", "m"),
-    ("\\Lambda", "film thickness ratio h/σ_r", "", "", "1"),
-    ("\\Lambda_0", "film thickness ratio at δ = 0", "", "", "1"),
-    ("\\eta", "height of an asperity divided by σ_r", "", "", "1"),
-    ("F_{5/2}", "mean of (η − Λ)^{5/2} over the heights η > Λ", "", "", "1"),
+    ("\\Lambda", "film thickness ratio $h/\\sigma_r$", "", "", "1"),
+    ("\\Lambda_0", "film thickness ratio at $\\delta = 0$", "", "", "1"),
+    ("\\eta", "height of an asperity divided by $\\sigma_r$", "", "", "1"),
+    ("F_{5/2}", "mean of $(\\eta - \\Lambda)^{5/2}$ over the heights $\\eta > \\Lambda$", "", "", "1"),
 )
 WEAR = (
     ("V_w", "worn volume of one surface", "`worn.bearing.volume`, `worn.journal.volume`", "", "m³"),
@@ -210,6 +216,15 @@ IN_SECTION = {  # what the words of a declaration do not say: the term of physic
     "bearings.NAME.length": "length of the bearing: length of the pin in the hole",
     "guides.NAME.gap": "clearance: gap on each side, half the difference of the widths of slot and slider",
 }
+FORMULAS = {  # symbols in the words of declarations, and how the page shows them
+    "tanh(v_t/v0)": "$\\tanh(v_t/v_0)$",
+    "beyond v0": "beyond $v_0$",
+    "tanh 1 = 0.76": "$\\tanh 1 = 0.76$",
+    "fallen to 1/e": "fallen to $1/\\mathrm{e}$",
+    "added to c,": "added to $c$,",
+    "smallest δ̇⁻": "smallest $\\dot\\delta^{-}$",
+    "penetration delta": "penetration `delta`",
+}
 IN_CONTACT = {"transition": "e_0", "velocity_floor": "v_{\\min}"}  # as physics.md
 OF_MATERIAL = {"E": "E_i$, $E_j", "nu": "\\nu_i$, $\\nu_j"}  # of the surface of the bearing or the journal
 IN_PAPER = {
@@ -225,19 +240,74 @@ IN_PAPER = {
 DERIVED = (  # name in the functions of the laws, quantity, laws, unit
     ("K", "contact stiffness", "laws of the normal force with a stiffness", "N/m^n"),
     ("hysteresis", "hysteresis damping factor, by `dissipation`", "laws with `dissipation`", "1"),
-    ("F_e", "elastic force, the value of f_δ", "`expression`", "N"),
-    ("friction_slope", "1/(v_1 − v_0)", "`modified_coulomb`", "s/m"),
+    ("F_e", "elastic force: the value of the expression $f_\\delta$", "`expression`", "N"),
+    ("friction_slope", "$1/(v_1 - v_0)$", "`modified_coulomb`", "s/m"),
     ("z", "deflection of the bristles", "`dahl`, `lugre`", "m"),
-    ("film_clearance", "clearance of the film, c + c_a", "all films", "m"),
+    ("film_clearance", "clearance of the film, $c + c_a$", "all films", "m"),
     ("S", "film factor: the equation of each law defines it", "all films", "N·s"),
-    ("root", "√(1 − ε²)", "all films", "1"),
-    ("q", "√(w_n² + s_ε² w_t²)", "`finite_length`", "1/s"),
-    ("x", "ε w_n/w_ε", "`finite_length`", "1"),
-    ("W", "√(w_n² + w_t²)", "`pinkus_sternlicht`, `ocvirk`", "1/s"),
+    ("root", "$\\sqrt{1 - \\varepsilon^2}$", "all films", "1"),
+    ("q", "$\\sqrt{w_n^2 + s_\\varepsilon^2 w_t^2}$", "`finite_length`", "1/s"),
+    ("x", "$\\varepsilon w_n/w_\\varepsilon$", "`finite_length`", "1"),
+    ("W", "$\\sqrt{w_n^2 + w_t^2}$", "`pinkus_sternlicht`, `ocvirk`", "1/s"),
     ("factor", "correction of the squeeze motion", "`pinkus_sternlicht`", "1"),
-    ("shear", "shear torque of the centred journal divided by ω_j − ω_i", "films with `shear`", "N·m·s"),
-    ("T0", "shear torque M_τ divided by ω_j − ω_i", "films with `shear`", "N·m·s"),
+    ("shear", "shear torque of the centred journal divided by $\\omega_j - \\omega_i$", "films with `shear`", "N·m·s"),
+    ("T0", "shear torque $M_\\tau$ divided by $\\omega_j - \\omega_i$", "films with `shear`", "N·m·s"),
     ("mean_clearance", "clearance between the mean surfaces", "laws of mixed lubrication", "m"),
+)
+
+C_NAMES = (  # name in C, symbol, quantity, not to be confused with
+    ("`steep`", "\\Gamma", "length of the gradient of $\\delta$", ""),
+    ("`worn`", "d", "depth of a contour, also without wear", "`worn` in Python, the result of `gudgeon.wear`"),
+    ("`F_N`, with a contour", "F_n", "normal force", ""),
+    ("`F_n`, with a contour", "F_\\delta", "result of the normal law", "the normal force $F_n$"),
+    ("`share`", "b", "fraction of the load on the dry contact", ""),
+    ("`T0`", "D_s", "shear torque divided by $\\omega_j - \\omega_i$", "a torque: the unit of `T0` is N·m·s"),
+    ("`factor`", "f", "correction of the squeeze motion", ""),
+    ("`root`", "s_\\varepsilon", "$\\sqrt{1 - \\varepsilon^2}$", ""),
+    ("`q` of `finite_length`", "w_\\varepsilon", "$\\sqrt{w_n^2 + s_\\varepsilon^2 w_t^2}$", "the coordinates $q$"),
+    ("`x` of `finite_length`", "\\xi", "$\\varepsilon w_n/w_\\varepsilon$", "a position $x$"),
+    ("`D[k][l]`", "G_{kl}", "Delassus operator", "the damping $D$"),
+    ("`S[k][k]`", "G_t", "change of the slip per unit of $P_t$", "the film factor $S$"),
+)
+OTHER_SYMBOLS = (  # symbols of physics.md in no other table: symbols, quantity, unit, section
+    ("x_k$, $y_k$, $\\theta_k", "coordinates of body $k$: centre of mass, angle", "m, m, rad", "1"),
+    ("g", "applied forces and moments", "N, N·m", "1"),
+    ("s", "independent coordinates of the tree", "rad, m", "1"),
+    ("r_1$, $r_2", "pitch radii of a gear pair", "m", "1"),
+    ("\\alpha_w", "working pressure angle of a gear pair", "rad", "1"),
+    ("\\theta_d", "value that a drive prescribes", "rad or m", "1"),
+    ("i$, $j", "subscripts of the first and the second body of a joint", "", "2"),
+    ("\\mathbf r_i$, $\\mathbf r_j", "positions of the centres of bearing and journal", "m", "2"),
+    ("\\mathbf r", "position of a corner of a slider relative to the point of the guide", "m", "2"),
+    ("\\mathbf F$, $\\mathbf F_j$, $\\mathbf F_i", "force on the second body; on journal and on bearing", "N", "2"),
+    ("d'", "derivative of the depth of a contour by $\\beta_i$", "m", "2"),
+    ("\\mathbf u", "unit vector $\\mathbf e/e$ in a bearing with a contour", "1", "2"),
+    ("F_\\delta", "result of the normal law in a bearing with a contour, $F_n/\\Gamma$", "N", "2"),
+    ("\\delta_{\\text{tol}}", "penetration that counts as rounding", "m", "3"),
+    ("v_c", "separation speed up to which an impact leaves no separation, at least $v_{\\text{th}}$", "m/s", "3"),
+    ("h_b$, $t_b", "smallest height and smallest rise time of a bounce that a run resolves", "m, s", "3"),
+    ("E^{*}", "contact modulus", "Pa", "3"),
+    ("R^{*}", "effective radius of a contact", "m", "3"),
+    ("e_r", "delivered coefficient of restitution", "1", "3"),
+    ("\\omega_0", "natural frequency of a contact", "1/s", "3"),
+    ("\\zeta", "damping ratio of a contact", "1", "3"),
+    ("c_d", "coefficient of friction at the present slip", "1", "3"),
+    ("g_v", "coefficient of friction in steady sliding of the LuGre law", "1", "3"),
+    ("F_s", "set-valued friction: static limit, the key `static`", "N", "3"),
+    ("F_c", "set-valued friction: kinetic force at high slip, the key `kinetic`", "N", "3"),
+    ("F_k", "set-valued friction: kinetic force", "N", "3"),
+    ("P_\\Phi", "impulses of the constraint equations", "N·s, N·m·s", "3"),
+    ("\\chi_k", "scaled approach speed of impact $k$", "kg^(1/2)·m/s", "3"),
+    ("\\kappa_{12}", "coupling of two contacts", "1", "3"),
+    ("\\psi", "direction of $\\mathbf e$ in ground axes", "rad", "4"),
+    ("\\varphi$, $\\varphi_1", "angle from the widest gap; its value at the start of the half film", "rad", "4"),
+    ("\\omega_s", "effective angular velocity of the film", "rad/s", "4"),
+    ("\\mathbf w", "effective squeeze velocity", "m/s", "4"),
+    ("L/(2R_j)", "length of the bearing divided by the diameter of the journal", "1", "4"),
+    ("p", "film pressure above that at the ends", "Pa", "4"),
+    ("V_f", "potential of the film force", "W", "4"),
+    ("a_0 \\dots a_3", "coefficients of $V_f$", "1", "4"),
+    ("M_\\tau", "shear torque of a film", "N·m", "4"),
 )
 
 
@@ -260,7 +330,7 @@ def make_notation_page() -> str:
         "The unit vector $\\mathbf n$ points from the centre of the bearing to the centre of the journal.",
         "The unit vector $\\mathbf t$ is $\\mathbf n$ turned by +90°. The forces act on the journal.",
         "In a guide, `JOINT` is a corner, such as `guide.front_upper`. The corner then replaces the journal, and its",
-        "wall replaces the bearing.",
+        "wall replaces the bearing. The series `ex` and `ey` of a corner are the components of $e\\,\\mathbf n$.",
         "",
         'In Python, `run["JOINT.delta"]` returns a series. In C, the structure `rhs->clearance[i]` contains the',
         "quantities of the first table. Those of the second table are local variables.",
@@ -304,10 +374,49 @@ def make_notation_page() -> str:
         "",
     ]
     lines += _format_table(("symbol", "quantity", "laws", "C", "unit"), _iterate_derived_rows())
+    lines += [
+        "",
+        "## Names in C that differ from the term",
+        "",
+        "These names are local variables and members in C. They are short forms, and some of them are also the name",
+        "of another quantity.",
+        "",
+    ]
+    c_rows = ((name, f"${symbol}$", *rest) for name, symbol, *rest in C_NAMES)
+    lines += _format_table(("name in C", "symbol", "quantity", "is not"), c_rows)
+    lines += [
+        "",
+        "## Other symbols of the equations",
+        "",
+        "Most of these symbols stand for intermediate or general quantities.",
+        "The last column is the section of [Physics](physics.md#symbols-and-sign-conventions) that uses the symbol.",
+        "",
+    ]
+    other_rows = ((f"${symbols}$", *rest) for symbols, *rest in OTHER_SYMBOLS)
+    lines += _format_table(("symbol", "quantity", "unit", "section of physics"), other_rows)
     page = "\n".join([*lines, ""])
     if ambiguous := find_ambiguous_symbols(page):
         raise ValueError("docs/notation.md: symbols with two meanings: " + "; ".join(ambiguous))
     return page
+
+
+def find_missing_symbols(page: str, physics: str) -> list[str]:
+    """Return the symbols declared in the tables of docs/physics.md that are on the page of the notation nowhere."""
+    declared = physics.partition("## Symbols and sign conventions")[2].partition("\n## ")[0]
+    cells = "\n".join(line.split(" | ")[0] for line in declared.splitlines() if line.startswith("| $"))
+    listed = {_strip_symbol(symbol) for symbol in re.findall(r"\$([^$]+)\$", page)}
+    symbols = (symbol for cell in re.findall(r"\$([^$]+)\$", cells) for symbol in _split_coordinates(cell))
+    return [symbol for symbol in symbols if _strip_symbol(symbol) not in listed]
+
+
+def _split_coordinates(symbol: str) -> list[str]:
+    """Return the symbols of a definition such as q_k = (x_k, y_k, θ_k): those in the parentheses."""
+    return symbol.partition("(")[2].rstrip(")").split(", ") if " = (" in symbol else [symbol]
+
+
+def _strip_symbol(symbol: str) -> str:
+    """Return a symbol without spaces, braces and fonts, so that two spellings of it are equal."""
+    return re.sub(r"\\(mathrm|text)\b|[{} ]", "", symbol)
 
 
 def find_ambiguous_symbols(page: str) -> list[str]:
@@ -366,7 +475,7 @@ def _iterate_play_rows() -> Iterator[tuple[str, ...]]:
 
 
 def _iterate_step_rows() -> Iterator[tuple[str, ...]]:
-    for symbol, meaning, python, variables, unit in VECTORS:
+    for symbol, meaning, python, variables, unit in LOCAL_VARIABLES:
         yield f"${symbol}$", meaning, python, ", ".join(f"`{name}`" for name in variables.split(", ") if name), unit
     for symbol, meaning, python, variable, unit in STEPS:
         yield f"${NAMES[symbol].latex}$", meaning, python, f"`{variable}`", unit
@@ -384,7 +493,7 @@ def _iterate_record_rows(path: str, record: Field) -> Iterator[tuple[str, ...]]:
             key = f"{path}.{field.name}"
             shown = symbols.get(field.name) or make_symbol_name(get_field_letter(field.name)).latex
             paper = IN_PAPER.get(key, "")
-            meaning = IN_SECTION.get(key, field.meaning)
+            meaning = IN_SECTION.get(key) or _set_formulas(field.meaning)
             yield (
                 f"${shown}$",
                 meaning,
@@ -403,13 +512,20 @@ def _iterate_law_rows() -> Iterator[tuple[str, ...]]:
             for field in law.parameters if law.role == role else ():
                 row = (
                     get_latex_symbol(field),
-                    field.meaning,
+                    _set_formulas(field.meaning),
                     f"contacts.NAME.{role}.{field.name}",
                     _format_unit(field),
                 )
                 merged.setdefault(row, []).append(f"`{law.name}`")
     for (symbol, meaning, key, unit), laws in merged.items():
         yield f"${symbol}$", meaning, ", ".join(laws), f"`{key}`", _format_c_member(key), unit
+
+
+def _set_formulas(meaning: str) -> str:
+    """Return the words of a declaration with its symbols as mathematics."""
+    for words, formula in FORMULAS.items():
+        meaning = meaning.replace(words, formula)
+    return meaning
 
 
 def _iterate_derived_rows() -> Iterator[tuple[str, ...]]:
