@@ -38,11 +38,14 @@ def block(language: str) -> str:
 
 
 @needs_compiler
-def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_its_file_and_its_python(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.chdir(tmp_path)
     Path("wristpin.yaml").write_text(block("yaml"), encoding="utf-8")
     names: dict[str, object] = {}
     exec(block("python"), names)
+    assert missing(block("text"), capsys.readouterr().out) == []
     found = names["study"].dataset  # type: ignore[attr-defined]
     assert dict(found["peak"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
     assert names["study"].failed == 0 and Path("wristpin.nc").exists()  # type: ignore[attr-defined]
