@@ -239,6 +239,16 @@ def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
         race_page.filled("<!-- race: nobody -->\n<!-- end -->", record())
 
 
+def test_the_guide_to_methods_shows_the_times_of_the_race() -> None:
+    """docs/choosing_a_method.md repeats the columns `engine` of gudgeon's methods, lubricated press, error `path`."""
+    lines = race_page.table(race_record.read(race_page.CSV), "lubricated", "path")
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if "gudgeon " in line]
+    guide = (race_page.PAGE.parent / "choosing_a_method.md").read_text(encoding="utf-8")
+    assert len(rows) == 6
+    for name, *cells in rows:
+        assert f"| `{name.removeprefix('gudgeon ')}` | {' | '.join(cells[:6:2])} |\n" in guide
+
+
 def test_the_page_of_growth_is_what_its_record_makes_of_it() -> None:
     page = growth.PAGE.read_text(encoding="utf-8")
     assert growth.filled(page) == page

@@ -55,7 +55,7 @@ def same(shown: str, printed: str) -> bool:
 
 def _same_word(shown: str, printed: str) -> bool:
     try:
-        return math.isclose(float(shown), float(printed), rel_tol=1e-3)
+        return shown == printed or math.isclose(float(shown), float(printed), rel_tol=1e-3)  # NaN is not close to NaN
     except ValueError:
         return shown == printed
 

@@ -20,6 +20,7 @@ from gudgeon.studies.ensemble.names import collect_display_names, typeset_quanti
 from gudgeon.studies.ensemble.resolve import MAX_BLOCK_RUNS
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
+from tests.test_tutorials import missing
 
 jsonschema = pytest.importorskip("jsonschema")
 DOCS = Path(__file__).parents[2] / "docs"
@@ -37,11 +38,14 @@ def block(language: str) -> str:
 
 
 @needs_compiler
-def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_its_file_and_its_python(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.chdir(tmp_path)
     Path("wristpin.yaml").write_text(block("yaml"), encoding="utf-8")
     names: dict[str, object] = {}
     exec(block("python"), names)
+    assert missing(block("text"), capsys.readouterr().out) == []
     found = names["study"].dataset  # type: ignore[attr-defined]
     assert dict(found["peak"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
     assert names["study"].failed == 0 and Path("wristpin.nc").exists()  # type: ignore[attr-defined]
@@ -87,8 +91,20 @@ def test_its_fragments_are_read() -> None:
     head = "format: gudgeon-study/1\nmechanism: slider_crank\nscenes: [ideal, dry]\n"
     assert set(read_studies(f"{head}{parts}".encode(), "parts.yaml").parts) == {"clearance", "speed"}
     found = read_studies(f"{head}measures: {{peak: {{peak: slider.ax}}}}\n{claims}".encode(), "claims.yaml").claims
-    assert [len(found.numbers), len(found.trends)] == [1, 3] and found.source
-    assert len(blocks("python")) == 1
+    assert [len(found.numbers), len(found.trends)] == [1, 4] and found.source
+    assert len(blocks("python")) == 2
+
+
+@needs_compiler
+def test_the_claims_print_what_is_shown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The claims of claims.md belong to the study of studies.md."""
+    monkeypatch.chdir(tmp_path)
+    study, *_, claims = blocks("yaml")
+    Path("wristpin.yaml").write_text(study + claims, encoding="utf-8")
+    exec(blocks("python")[1], {})
+    assert missing(blocks("text")[-1], capsys.readouterr().out) == []
 
 
 def test_what_it_quotes_is_read() -> None:
