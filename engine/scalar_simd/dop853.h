@@ -145,7 +145,7 @@ static int dop853_try_step(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     }
     dop853_compute_stage(DOP853_STAGES, h, run->y, step->k, step->y);
     step->error = dop853_estimate_error(run, step);
-    if (is_error_not_finite(run, step->error))
+    if (reject_nonfinite_error(run, step->error))
         return NOT_FINITE;
     if (is_step_rejected(run, step))
         return 0;
