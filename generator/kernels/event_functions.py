@@ -215,7 +215,10 @@ def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
 
 
 def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[sp.Expr]) -> Kernel:
-    """Return the kernel that evaluates the collected terms at a time and writes them to `out`."""
+    """Return the kernel (arguments t, p, rhs) that evaluates the collected terms of time alone and writes them to `out`.
+
+    `dynamics` supplies the other attributes of the kernel.
+    """
     stores = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (
         Section("parameters and time", tuple(collector.list_needed_definitions(terms))),

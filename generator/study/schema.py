@@ -140,7 +140,11 @@ def _make_about_schema() -> Json:
 
 
 def _make_claims_schema() -> Json:
-    """Return the schema of `claims`: numbers, and trends with one statement, several or none."""
+    """Return the schema of `claims`: an object with the keys `source`, `numbers` and `trends`.
+
+    `numbers` and `trends` map labels to a number or a trend. A trend has one statement, a list of them under `all`, or
+    the reason `not_computed`.
+    """
     coordinate_values, texts = (
         _make_map_schema(_NUMBER),
         {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},

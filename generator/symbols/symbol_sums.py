@@ -97,7 +97,10 @@ def _find_key(expression: sp.Expr) -> _SymbolKey | None:
 
 
 def _multiply(a: sp.Expr, b: sp.Expr, is_negative: bool) -> _Monomial | None:
-    """Return ± a b, negative if `is_negative`; None if it is not a product of different symbols."""
+    """Return ± a b as (is_negative, keys, symbols), negated if `is_negative`.
+
+    None unless it is ± a product of one or more different symbols, without a number other than ±1.
+    """
     first, second = _split_product(a), _split_product(b)
     if first is None or second is None:
         return None

@@ -181,7 +181,11 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
 
 
 def _explain_missing_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
-    """Return (message, hint) for an eccentricity at the start that the file does not give; ("", "") for others."""
+    """Return (message, hint) for a position of a joint with play at the start that the file does not give.
+
+    `address`: such as start.play.A.e.x, or start.play.A.offset of a slider. ("", "") is returned for other addresses,
+    and if the file's start gives any value of the joint.
+    """
     section, subsection, joint, *component = [*address.split("."), "", "", ""][:4]
     is_slider_by_joint = {clearance.joint: clearance.is_corner for clearance in source.clearances}
     has_start = any(parameter.address.startswith(f"start.play.{joint}.") for parameter in source.slots)

@@ -75,7 +75,10 @@ def _describe_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
 
 
 def _format_remedy(curve: Curve, period: float, order: int) -> str:
-    """Return the remedy, as text, for a jump of the curve's derivative of the given order (0: of its value)."""
+    """Return the hint for a jump of the curve's derivative of the given order (0: of its value).
+
+    It is only the reason of the jump if mod's period differs from the curve's length, or the curve does not begin at 0.
+    """
     is_curve_length = abs(period - (curve.x[-1] - curve.x[0])) <= DERIVATIVE_TOL * abs(period) and abs(
         curve.x[0]
     ) <= DERIVATIVE_TOL * abs(period)

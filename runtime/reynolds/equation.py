@@ -43,8 +43,9 @@ class Equation:
 
     @cached_property
     def matrix(self) -> sparse.csr_matrix:
-        """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by the unknowns.
+        """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by pressures (Poiseuille flow).
 
+        The flow by convection (Couette flow) is that of `build_convection_matrix`.
         It is an M-matrix; each column sums to 0, or to the outflow over the end.
         """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)

@@ -481,8 +481,9 @@ class Tangent:
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
 
     def _expand_difference(self, t: float, y: Array, q_dep: Array, d: Array) -> Array:
-        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state; zeros for
-        d = 0.
+        """Map a tangent vector d (2m,) of the integrated state to that (2n,) of (q, q̇) of all bodies; 0 for d = 0.
+
+        It is a central difference quotient whose step changes the integrated state by at most 1e-6.
         """
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:

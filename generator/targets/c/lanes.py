@@ -166,7 +166,7 @@ def _print_tangent_in_lanes(
 ) -> str:
     """Return the C function `tangent_<joint>_` for lanes: the derivatives of the force of a joint with play.
 
-    derivative_calls: the calls of the derivatives by part, "film", "dry" and "share" (the fraction of the dry contact).
+    The matrix has 4 + n_states rows (force, moments, state rates) and 5 + n_states columns. derivative_calls: the calls of the derivatives by part, "film", "dry" and "share" (the fraction of the dry contact).
     Parts that the joint does not have are missing. n_states: internal states of laws that each joint has.
     """
     arguments_and_result = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}

@@ -89,13 +89,17 @@ def list_file_purposes(program: Program) -> dict[str, str]:
 
 
 def _describe_sizes(program: Program) -> str:
-    """Return a sentence about the sizes of the scene: bodies, coordinates, constraint equations, joints with play."""
+    """Return two sentences about the sizes of the scene and of the integrated system.
+
+    The first has the numbers of bodies, coordinates, constraint equations and joints with play. The second has those of
+    the integrated coordinates and equations, or "nothing" if drives determine the motion.
+    """
     model, system = program.model, program.integrated.system
     joints_with_play = {clearance.joint.name for clearance in model.clearances}
     integrated = f"{_format_count(system.q, 'coordinate')}, {_format_count(system.rows, 'constraint equation')}"
     return (
         f"{_format_count(model.bodies, 'body', 'bodies')} with {_format_count(model.q, 'coordinate')}, "
-        f"{_format_count(model.rows, 'constraint equation')},  {_format_count(joints_with_play, 'joint')} with play. "
+        f"{_format_count(model.rows, 'constraint equation')}, {_format_count(joints_with_play, 'joint')} with play. "
         f"Integrated: {integrated if program.integrates else 'nothing, because drives determine the motion'}."
     )
 

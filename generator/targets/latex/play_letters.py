@@ -224,9 +224,10 @@ def list_specified_parameters(equations: LawEquations, law_use: LawUse) -> list[
 
 
 def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
-    """Return the symbol of a step of a law by its name in the law's Python.
+    """Return the symbol of an intermediate quantity or result of a law by its name in the law's Python.
 
-    The result F_t of a law is the tangential force of the film or of the dry contact, by the role of the law.
+    It is the real symbol of that name, except for a result F_t: the tangential force of the film (role film) or of the
+    dry contact (other roles).
     """
     if name == "F_t" and name in RESULTS[equations.law.role]:
         return make_part_symbol(F_along_t, "film" if equations.law.role == "film" else "dry")

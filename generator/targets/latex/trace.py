@@ -253,10 +253,11 @@ class _TokenCollector:
         return NO_MARKS
 
     def _find_dynamics_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Marks:
-        """Return the token of the constraint equation of a value that `dynamics` or a closure function stores.
+        """Return the token of the constraint equation of a value that `dynamics` or a function of loop closures stores.
 
-        It follows from the index in the array phi, phi_dot or out, or from the local's name rhs_<row>. The result is a
-        set, empty for other values.
+        It follows from the index in the array phi, phi_dot or out (negative: none), or from the local's name rhs_<row>.
+        The index counts the rows of the full formulation in `dynamics`, and the loop closures of the integrated system
+        in `closures` and `closure_rates`. The result is a set, empty for other values.
         """
         rows = self.model.rows if function_name == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):

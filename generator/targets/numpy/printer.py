@@ -241,7 +241,10 @@ class LinePrinter:
         return f"{left_side} {test.relation} {bound}" if test.relation else left_side
 
     def _print_factor(self, value: sp.Basic | float) -> str:
-        """Return a factor of a bound as Python; a threshold is printed by its name."""
+        """Return a factor of the bound of a comparison (`test.bound`, a product) as Python, without parentheses.
+
+        It is a number, an expression, or a threshold, which is printed by its name.
+        """
         if isinstance(value, Threshold):
             return value.name
         return repr(value) if isinstance(value, float) else self.print_expression(value)

@@ -212,10 +212,10 @@ class _FinishedRuns:
 def _judge_number(
     number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, RunCell]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the table row of a number for each ensemble: quartiles of its runs, and the deviation of the median in %.
+    """Yield the table row of a claimed number for each ensemble: quartiles of its runs, deviation of the median in %.
 
     cells: cells of all numbers by the name of their claim. The deviation is relative to the printed value, or to the
-    median of the number in `beside`. It is None without finite values, or relative to 0.
+    median of the reference claim (key `beside` of the file). It is None without finite values, or relative to 0.
     """
     claim = number.claim
     for ensemble in finished_runs.list_ensembles([number.cell]):

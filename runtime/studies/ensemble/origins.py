@@ -197,10 +197,10 @@ def _compute_series_at_samples(
 
 
 def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunKeys:
-    """Return these runs of a job as runs of another scene (`simulation`), with the sample times `times`, one array
-    each.
+    """Return what identifies these runs of a job as runs of another scene (`simulation`): equal keys, equal motions.
 
-    runs: indices in the job. Parameters that the other scene lacks are left out.
+    runs: indices in the job. times: sample times, one array each. Parameters that the other scene lacks are left out,
+    and those that do not affect the motion are 0 in the key. The step is None for a scene without degrees of freedom.
     """
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := find_parameter_key(source, name))}
