@@ -60,12 +60,12 @@ class LawEquations:
         return tuple(make_law_identifier(self.law, name) for name in self.law.results)
 
     @property
-    def further_variables(self) -> tuple[str, ...]:
-        """Return the names of the variables that the law reads in addition to those of its role.
+    def variables_outside_role(self) -> tuple[str, ...]:
+        """Return the names of the variables outside its role that the law reads.
 
         The role is normal, friction, film or mixed.
         """
-        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
+        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.variables_outside_role)
 
 
 @dataclass(frozen=True)
@@ -126,8 +126,8 @@ class Clearance:
         return self.friction.law.states if self.friction else ()
 
     @property
-    def further_arguments(self) -> tuple[sp.Expr, ...]:
-        """Return the arguments of the joint's functions in addition to e, ė and angular velocities.
+    def surface_arguments(self) -> tuple[sp.Expr, ...]:
+        """Return the arguments by the surface of the joint's functions, in addition to e, ė and angular velocities.
 
         They are the normal of a wall, or the angle of a bearing with a contour; () for a circular bearing.
         """
@@ -269,7 +269,7 @@ def _derive_law(
         law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Unevaluated)
     )
     read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
-    unused_names = {name for name in law.further if name not in read_names}
+    unused_names = {name for name in law.variables_outside_role if name not in read_names}
     law_variables = tuple(symbol for name, symbol in variables.items() if name not in unused_names)
     if law.name in USER_LAWS:
         check_sampled_values(law, law_variables, steps, parameter_table)
@@ -283,7 +283,7 @@ def make_law_identifier(law: Law, name: str) -> str:
     It is unchanged, except in a user-defined law: there the ending `__` is appended, unless the role of the law defines
     the name (`delta`, `F_n`). No fixed name contains `__`, and neither does a result of `make_identifier`.
     """
-    fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
+    fixed = {*VARIABLES[law.role], *law.variables_outside_role, *RESULTS[law.role]}
     return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 

@@ -18,7 +18,7 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError, LawError
 from gudgeon.generator.kinds.laws.built import PAIR, probe_law
-from gudgeon.generator.kinds.laws.law import FURTHER_VARIABLES, RESULTS, USER_LAWS, VARIABLES, Law, find_all_laws
+from gudgeon.generator.kinds.laws.law import RESULTS, USER_LAWS, VARIABLES, VARIABLES_OUTSIDE_ROLE, Law, find_all_laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_law_name, format_law_prefix
 from gudgeon.generator.mechanism import LawUse, Quantity, Scene, make_onset_value
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, find_classes
@@ -343,7 +343,7 @@ class _LawNames:
         fixed_names = {
             *PAIR,
             "transition",
-            *itertools.chain(*VARIABLES.values(), *FURTHER_VARIABLES.values(), *RESULTS.values()),
+            *itertools.chain(*VARIABLES.values(), *VARIABLES_OUTSIDE_ROLE.values(), *RESULTS.values()),
         }
         all_names = [*self.local_names, *self.parameter_names]
         for name in all_names:

@@ -169,11 +169,11 @@ def _make_claims_schema() -> Json:
         "counts": counts,
         "part": _TEXT,
     }
-    further_properties = {
+    trend_properties = {
         "all": {"type": "array", "items": _make_object_schema(statement_properties), "minItems": 1},
         "not_computed": _TEXT,
     }
-    trend = _make_object_schema(descriptive | statement_properties | further_properties)
+    trend = _make_object_schema(descriptive | statement_properties | trend_properties)
     source = {"type": "string", "maxLength": MAX_TEXT_LENGTH}
     return _make_object_schema(
         {"source": source, "numbers": _make_map_schema(number, LABEL), "trends": _make_map_schema(trend, LABEL)}

@@ -91,7 +91,7 @@ class SingleRunArrays(dict[str, NDArray[Any]]):
         return dict, ({name: self[name] for name in self._layout.fields} | self,)
 
     def make_struct(self, ffi: Any) -> Any:
-        """Write the pointers to all arrays into the first STRUCT_BYTES of the block, and return them as C's struct Batch.
+        """Write the pointers to all arrays into the first STRUCT_BYTES of the block; return them as C's struct Batch.
 
         Nothing is allocated: keep this object as long as the struct is used.
         """

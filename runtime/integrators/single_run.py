@@ -109,8 +109,8 @@ class SingleRun(Runs):
         """Integrate the run by the time loop in C, with the optimized library if it is ready.
 
         Steps are recorded for observers, if there are any. After Ctrl-C, `interrupted` is set, `failures` stays empty,
-        and the samples up to there remain. The error of a failed run is recorded in `failures`; without any sample, its start becomes the first. Raises
-        KeyboardInterrupt if Ctrl-C came before the first sample.
+        and the samples up to there remain. The error of a failed run is recorded in `failures`; without any sample, its
+        start becomes the first. Raises KeyboardInterrupt if Ctrl-C came before the first sample.
         """
         compiled, x, run = self.compiled, self.arrays, self._integrator
         step_log = StepLog(compiled) if self.observers else None

@@ -42,7 +42,7 @@ class Equation:
         return len(self.grid.height)
 
     @cached_property
-    def matrix(self) -> sparse.csr_matrix:
+    def pressure_flow_matrix(self) -> sparse.csr_matrix:
         """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by pressures (Poiseuille flow).
 
         The flow by convection (Couette flow) is that of `build_convection_matrix`.

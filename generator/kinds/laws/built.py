@@ -325,6 +325,6 @@ def make_law_function(
     return compute_results
 
 
-def count_further_variables(law: Law) -> int:
-    """Return the number of further variables between those of the role and the internal states."""
-    return len(law.further)
+def count_variables_outside_role(law: Law) -> int:
+    """Return the number of variables outside the role, which lie between those of the role and internal states."""
+    return len(law.variables_outside_role)

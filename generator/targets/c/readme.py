@@ -47,14 +47,14 @@ _COMPILED = (
 )
 
 
-def print_readme(program: Program, files: Mapping[str, str], further_files: Collection[str] = ("kernel.json",)) -> str:
+def print_readme(program: Program, files: Mapping[str, str], other_files: Collection[str] = ("kernel.json",)) -> str:
     """Return the Markdown text of README.md: the order in which to read a scene's files, and what each contains.
 
-    files: text of each file by its name. further_files: names of further files in the folder. A file that
+    files: text of each file by its name. other_files: names of other files in the folder. A file that
     `list_file_purposes` does not have is described by its first comment.
     """
     mechanism, scene = program.model.scene.mechanism, program.model.scene
-    names = [*files, *further_files]
+    names = [*files, *other_files]
     equations = [name for name in _EQUATION_FILES if name in names]
     numerics = [name for name in _METHOD_FILES if name in names]
     numerics = [*(name for name in names if name not in (*equations, *numerics)), *numerics]

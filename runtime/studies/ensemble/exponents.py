@@ -44,7 +44,7 @@ MOTION_CODES: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.
 MOTION_CODES_TEXT = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
 
 
-def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
+def check_lyapunov_measures(study: StudyFile, source: KernelSource) -> None:
     """Check a study's measures of neighbouring trajectories: Lyapunov exponents, predictability horizon, kind of
     motion.
 

@@ -20,7 +20,7 @@ from gudgeon.simulation.arguments import select_method
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Job, RunSettings, RunTable, resolve_wear_model
-from gudgeon.studies.ensemble.exponents import check_neighbour_measures
+from gudgeon.studies.ensemble.exponents import check_lyapunov_measures
 from gudgeon.studies.ensemble.libraries import (
     find_study_mechanism,
     get_method_for_scene,
@@ -283,7 +283,7 @@ def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSetting
                 check_expression(source, written, dimension, more)
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
-            check_neighbour_measures(study, source)
+            check_lyapunov_measures(study, source)
     check_constant_settings(study)
     windows = {
         name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
