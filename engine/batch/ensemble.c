@@ -258,7 +258,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
             reset_singular_policy(run);
         const int trial_status = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
             : try_step(run, p, &run->step);
-        if (!is_step_accepted(run, trial_status, p, &run->step, &status))
+        if (!accept_or_retry_step(run, trial_status, p, &run->step, &status))
             return GOES_ON;
         close_attempt(run);
         if (!status)

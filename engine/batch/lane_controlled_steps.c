@@ -97,9 +97,10 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
 #endif
 
 /*
- * Check the error of film forces of a step by radau5 or radau9 in the lanes `found`, as is_step_accepted() does, and
- * return the error norm of the step, which is at least that of the films where these were measured. Lanes that do not
- * accept the step are removed from `found`. is_measured: set to the lanes in which film_error is the measured error.
+ * Check the error of film forces of a step by radau5 or radau9 in the lanes `found`, as accept_or_retry_step() does,
+ * and return the error norm of the step, which is at least that of the films where these were measured. Lanes that do
+ * not accept the step are removed from `found`. is_measured: set to the lanes in which film_error is the measured
+ * error.
  */
 static Lanes check_film_errors(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     const LaneStep *step, const LaneParameters *p, LaneBits *found, LaneBits *is_measured, Lanes *film_error)

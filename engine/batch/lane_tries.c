@@ -23,9 +23,9 @@ static void discard_stages(LaneStep *step)
 
 /*
  * Set the masks of the lanes that accept the step, that fail, and whose stages were not found. Return whether no lane
- * accepts it. Failing lanes (needs_scalar) leave the step to their run; the mark is then reset.
+ * accepts it. Failing lanes, those in needs_scalar, leave the step to the scalar code; that mask is then reset.
  */
-static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
+static int decide_step_rejection(LaneIntegrator *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !LANE_SERIES
     step->has_no_stages = run->newton.has_no_stages;

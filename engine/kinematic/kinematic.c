@@ -143,7 +143,7 @@ static int has_hidden_transient(double t0, double t1, const Parameters *p)
     return find_undersampled_term(t0, t1 - t0, node, 5, is_term_negligible, NULL, p) > 0.0;
 }
 #else
-/* Return 0: the scene has no terms of time alone. */
+/* Return 0, no transient: the scene has no terms of time alone. */
 static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
     (void)t0, (void)t1, (void)p;

@@ -212,7 +212,7 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 static int reject_nonfinite_error(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
 /* Return whether the error norm of a step exceeds the accepted one: 1, or infinity for fixed steps. */
-static int is_step_rejected(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
+static int decide_step_rejection(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
  * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there,

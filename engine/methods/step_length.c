@@ -366,13 +366,14 @@ static int request_retry(Integrator *run)
 }
 
 /*
- * Return whether the tried step, whose computation returned `trial_status`, is accepted, without regard to events.
+ * Accept the tried step, whose computation returned `trial_status`, or request another attempt. Events are not
+ * regarded. Return whether the step is accepted.
  * Checked are its error norm, film forces, stability, long flights, events unresolved by the stages, and missed
  * transients. If it is accepted, run->control.h is the length of the next step, or *status the cause of a failure. If
  * not, run->control.attempt holds the next attempt, maybe by another method. Fixed steps are always accepted, except to
  * repeat one without frozen branches.
  */
-static int is_step_accepted(Integrator *run, int trial_status, const Parameters *p, Step *step, int *status)
+static int accept_or_retry_step(Integrator *run, int trial_status, const Parameters *p, Step *step, int *status)
 {
     const Method *method = step->method;
     Attempt *attempt = &run->control.attempt;
@@ -478,7 +479,7 @@ static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;
-    while (!is_step_accepted(run, try_step(run, p, step), p, step, &status))
+    while (!accept_or_retry_step(run, try_step(run, p, step), p, step, &status))
         ;
     close_attempt(run);
     return status;

@@ -256,5 +256,5 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     }
     if (reject_nonfinite_error(run, step->error))
         return NOT_FINITE;
-    return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
+    return decide_step_rejection(run, step) ? 0 : finish_step(run, step, p);
 }

@@ -374,7 +374,7 @@ static int is_pole(Integrator *run, const Step *step, double fraction, int user_
     return isinf(rhs.event[user_event]);
 }
 #else
-/* Return 0: the scene has no user-defined events. */
+/* Return 0, no pole: the scene has no user-defined events. */
 static inline int is_pole(Integrator *run, const Step *step, double fraction, int user_event, const Parameters *p)
 {
     return (void)run, (void)step, (void)fraction, (void)user_event, (void)p, 0;

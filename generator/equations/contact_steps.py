@@ -235,7 +235,7 @@ def make_blend_equations(clearance: Clearance, is_closed: bool = False) -> list[
         replacement = {delta: depth if is_closed else sp.Max(0, delta)}
         return [
             Assignment(_make_symbol(name), sp.sympify(expression).xreplace(replacement))
-            for name, expression in clearance.mixed.steps.items()
+            for name, expression in clearance.mixed.equations_by_name.items()
         ]
     fraction = sp.Min(1, delta / clearance.transition)
     return [Assignment(share, fraction if is_closed else sp.Max(0, fraction))]

@@ -89,7 +89,7 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
     names = {symbol: fields[info.place] for symbol, info in model.symbols.info.items() if info.place in fields}
     builder = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
     builder.begin_section("")
-    for name, equation in equations.steps.items():
+    for name, equation in equations.equations_by_name.items():
         value = hoist_reciprocals(model.parameter_table, sp.sympify(equation))
         if name in results:
             builder.append_store(Result(f"{name}_out"), value)

@@ -103,7 +103,7 @@ class _DerivativeBuilder:
         """
         law_tangents = self.tangents.make_tangents_for_variables(dict(zip(equations.variables, arguments, strict=True)))
         results = {}
-        for name, equation in equations.steps.items():
+        for name, equation in equations.equations_by_name.items():
             symbol, value = (
                 sp.Symbol(name, real=True),
                 hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),

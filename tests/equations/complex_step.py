@@ -315,7 +315,7 @@ class ComplexStep:
         """The law's results at a state of its own variables."""
         if id(equations) not in self._laws:
             known: dict[sp.Symbol, sp.Expr] = {}
-            for name, step in equations.steps.items():
+            for name, step in equations.equations_by_name.items():
                 value = self.model.symbols.expand_definitions(sp.sympify(step)).xreplace(known)
                 known[sp.Symbol(name, real=True)] = value
             results = [known[sp.Symbol(name, real=True)] for name in equations.law.results]

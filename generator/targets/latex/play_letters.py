@@ -197,7 +197,7 @@ def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[
         if not (wall and value == pair.R_j):
             yield value, LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
     for equations, _ in laws:
-        for name in equations.steps:
+        for name in equations.equations_by_name:
             yield get_result_symbol(equations, name), name_law_variable(equations.law, name)
 
 
