@@ -26,7 +26,8 @@ static inline long get_first_row(const Batch *batch, long i) { return batch->sam
 /*
  * Limits within which a step needs no action of its run, so that the lanes may accept it (batch/lane_local_steps.c). A
  * type argument gives the same limits for one run (double) or for several (vectors).
- *   power, bounded     of the method: exponent of the step-size control, h rho at which stability limits the steps
+ *   power              of the method: exponent of the step-size control
+ *   limiting_h_rho     of the method: h rho at which stability limits the steps
  *   unstable           h rho above which a step is rejected
  *   min_rho, max_rho   h rho below or above which a step speaks against its method
  *   max_contrary       number of such steps at which the method changes
@@ -38,8 +39,8 @@ static inline long get_first_row(const Batch *batch, long i) { return batch->sam
  *   gap, clearance     m, of each joint with play: error of the dense output of its gap; its radial clearance
  */
 #define STEP_LIMITS(Number) \
-    Number power, bounded, unstable, min_rho, max_rho, max_contrary, max_length, max_ratio, film_error, peak_ratio, \
-        residual, gap[AT_LEAST_ONE(N_CLEARANCES)], clearance[AT_LEAST_ONE(N_CLEARANCES)];
+    Number power, limiting_h_rho, unstable, min_rho, max_rho, max_contrary, max_length, max_ratio, film_error, \
+        peak_ratio, residual, gap[AT_LEAST_ONE(N_CLEARANCES)], clearance[AT_LEAST_ONE(N_CLEARANCES)];
 
 /* Limits of the steps of one run that lanes accept, and their largest number until the run needs a call. */
 typedef struct {

@@ -97,8 +97,8 @@ static void store_current_state_as_sample(const Batch *batch, long i, long k, In
 }
 
 /*
- * Return the index k > 0 of the first sample of run i whose q or v is not finite, because a force is undefined between
- * the stages; 0: none. No sample is checked twice: batch->checked is updated.
+ * Return the index k > 0 of the first sample of run i whose q or v is not finite (a force was undefined between the
+ * stages); 0: none. No sample is checked twice: batch->checked is updated.
  */
 static long find_nonfinite_sample(const Batch *batch, long i)
 {
@@ -258,7 +258,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
             reset_singular_policy(run);
         const int trial_status = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
             : try_step(run, p, &run->step);
-        if (!is_step_accepted(run, trial_status, p, &run->step, &status))
+        if (!accept_or_retry_step(run, trial_status, p, &run->step, &status))
             return GOES_ON;
         close_attempt(run);
         if (!status)
@@ -275,7 +275,10 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
 
 #include "local_step_limits.c"
 
-/* Return the functions of a single run that a library of lanes calls. */
+/*
+ * Return the table of function pointers (SingleRunFunctions) of a single run that a library of lanes calls: begin,
+ * advance, limits of local steps.
+ */
 const void *gudgeon_single_run_functions(void)
 {
     static const SingleRunFunctions single = {begin_single_run, advance_single_run, get_local_step_limits};

@@ -51,7 +51,10 @@ static LaneBits find_lanes_without_events(
     return found;
 }
 
-/* Return the largest force of joint i at the stages inside a step, N; 0: there is none. */
+/*
+ * Return the largest force (N) of joint i over the stored stages strictly inside the step, 0 if no stage is. It is the
+ * square root of stage_values, which hold squares of forces.
+ */
 static Lanes find_largest_stage_force(const LaneStep *step, int i)
 {
     Lanes most = broadcast(0.0);
@@ -80,10 +83,10 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
         values[s] = s < stages - 1 ? step->k[s] : change;
     compute_collocation_polynomial(method == BY_RADAU5 ? &RADAU5 : &RADAU9, stages, values, dense);
     evaluate_collocation_polynomial(lanes->y, (const Lanes (*)[N_Y])dense, fraction, y);
-    lanes->discrete.rare = (LaneBits){0};
+    lanes->discrete.needs_scalar = (LaneBits){0};
     project_onto_constraints(lanes, t, y, NULL, p);
     evaluate_run_rhs(lanes, t, y, p, dy, &rhs);
-    *found &= ~lanes->discrete.rare;
+    *found &= ~lanes->discrete.needs_scalar;
     differentiate_dense_output(step->h, (const Lanes (*)[N_Y])dense, RADAU_DEGREE, RADAU_REVERSED, fraction, 2 * N_X,
         rate);
     const Lanes force_at_ends =
@@ -94,9 +97,10 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
 #endif
 
 /*
- * Check the error of film forces of a step by radau5 or radau9 in the lanes `found`, as is_step_accepted() does, and
- * return the error norm of the step, which is at least that of the films where these were measured. Lanes that do not
- * accept the step are removed from `found`. is_measured: set to the lanes in which film_error is the measured error.
+ * Check the error of film forces of a step by radau5 or radau9 in the lanes `found`, as accept_or_retry_step() does,
+ * and return the error norm of the step, which is at least that of the films where these were measured. Lanes that do
+ * not accept the step are removed from `found`. is_measured: set to the lanes in which film_error is the measured
+ * error.
  */
 static Lanes check_film_errors(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     const LaneStep *step, const LaneParameters *p, LaneBits *found, LaneBits *is_measured, Lanes *film_error)
@@ -155,9 +159,9 @@ static LaneBits exclude_inner_peaks(const LaneLocalSteps *local_steps, LaneInteg
         const Lanes duration = FORCE_AHEAD * step->h;
         for (int j = 0; j < N_Y; j++)
             y[j] = step->y[j] + duration * step->dy[j];
-        lanes->discrete.rare = (LaneBits){0};
+        lanes->discrete.needs_scalar = (LaneBits){0};
         evaluate_run_rhs(lanes, step->t + step->h + duration, y, p, dy, &rhs);
-        *found &= ~(needs_trend & lanes->discrete.rare);
+        *found &= ~(needs_trend & lanes->discrete.needs_scalar);
         for (int i = 0; i < N_CLEARANCES; i++)
             if (has_film(i))
                 is_rising[i] = ~is_candidate[i]
@@ -227,7 +231,7 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
     const Lanes error = lanes_max_of(broadcast(MIN_ERROR), step_error), h_rho = lanes->choice.h_rho;
     const Lanes order = local_steps->observed_order * ORDER_DECAY;
     const Lanes ratio = compute_length_ratio(error, local_steps->error_before, h_rho, order, local_steps->limits.power,
-        local_steps->limits.bounded);
+        local_steps->limits.limiting_h_rho);
     Lanes next = step->h
         * lanes_min_of(broadcast(MAX_GROWTH), lanes_max_of(broadcast(MIN_GROWTH), ratio));
     local_steps->observed_order = select_value(accepted, order, local_steps->observed_order);
@@ -246,8 +250,8 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
 }
 
 /*
- * Return the number of steps against the method of each lane after this step (choose_method()): 0 where it does not
- * speak against it.
+ * Return the number of steps against the method of each lane after this step (switch_method_after_step()): 0 where it
+ * does not speak against it.
  */
 static Lanes count_contrary_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
 {

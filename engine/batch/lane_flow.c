@@ -104,9 +104,10 @@ static int has_event_in_fixed_step(const LaneGroup *group, int k)
 
 /*
  * Try one step by `method` of one run in each lane, and advance those runs to their next steps. Lanes without such a
- * run are computed, but ignored. Steps that need no action of their run are accepted in the lane. Steps that fail in a
- * lane or contain an event are left to their runs. Return the number of runs that Python must be called for.
- * *lists_full is set if the lists of one are full.
+ * run are computed, but ignored. Steps without events or other actions of the scalar code are accepted in the lane. A
+ * step that fails in a lane or contains an event is made by the scalar code, in advance_run_to_next_step(). Return the
+ * number of runs that Python must be called for. *lists_full is set to 1 if a run has no room for further contacts,
+ * events or recorded steps: Python must fetch them first.
  */
 static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 {

@@ -205,9 +205,9 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
 
 /*
  * Compute sine and cosine of the angle (rad) in each lane. Lanes with angles beyond TURN_LIMIT are not valid; they are
- * added to the mask `rare`.
+ * added to the mask `needs_scalar`.
  */
-static inline void compute_sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
+static inline void compute_sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *needs_scalar)
 {
 #define SINES_OF Lanes
 #define SINES_BITS LaneBits
@@ -218,7 +218,7 @@ static inline void compute_sines_and_cosines(Lanes angle, Lanes *sine, Lanes *co
 #undef SINES_BITS
 #undef BITS_OF
 #undef OF_BITS
-    *rare |= ~small;
+    *needs_scalar |= ~small;
 }
 
 #endif

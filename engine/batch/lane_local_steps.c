@@ -16,7 +16,7 @@
  */
 typedef struct {
     Lanes next_sample, t_end;
-    Lanes mean_length;               /* of the steps of the method, s (choose_method()) */
+    Lanes mean_length;               /* of the steps of the method, s (switch_method_after_step()) */
     LaneBits may_accept;             /* whether steps may be accepted here */
     long steps[LANES], max_local_steps[LANES]; /* steps accepted here; allowed number */
     int has_state[LANES]; /* whether the lane has the run's state */
@@ -70,7 +70,10 @@ static void count_local_steps(LaneLocalSteps *local_steps, LaneBits accepted)
     }
 }
 
-/* Load the scales of tolerances of a run into lane k. */
+/*
+ * Copy the error norm of a run into lane k: inverse scales and smallest sizes of the state, scales of energy, work and
+ * speeds.
+ */
 static void load_norm(LaneIntegrator *lanes, int k, const Integrator *run)
 {
     lanes->norm.energy_scale[k] = run->norm.energy_scale;
@@ -97,7 +100,7 @@ static void flush_state(const LaneIntegrator *lanes, int k, long steps, Integrat
     run->norm.speed[0] = lanes->norm.speed[0][k];
     run->norm.speed[1] = lanes->norm.speed[1][k];
     run->counts.steps += steps;
-    run->progress.ended[N_EVENT_FUNCTIONS] += steps;
+    run->progress.n_steps_ended[N_EVENT_FUNCTIONS] += steps;
     run->progress.monitor.steps += steps;
     run->choice.steps_since_change += (int)steps;
     run->progress.no_advance = run->progress.short_steps = 0;

@@ -2,7 +2,7 @@
 
 /*
  * Set the limits of small pivots in all lanes, as for a single run with detection of singular positions. Lanes with
- * smaller pivots are added to discrete->rare: their scalar runs make the step.
+ * smaller pivots are added to discrete->needs_scalar: their scalar runs make the step.
  */
 static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
@@ -12,21 +12,21 @@ static inline void set_pivot_limits(LaneDiscreteState *discrete)
 
 /*
  * Compute the accelerations a and outputs rhs of all lanes by the reduced equations of motion. Always return 0: lanes
- * with a vanishing pivot are added to the mask discrete->rare.
+ * with a vanishing pivot are added to the mask discrete->needs_scalar.
  */
 static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lanes *v, LaneDiscreteState *discrete,
     const LaneParameters *p, Lanes *a, LaneRhsOutputs *rhs)
 {
     set_pivot_limits(discrete);
-    reduced_dynamics(t, q, v, discrete, p, a, rhs, &discrete->rare);
+    reduced_dynamics(t, q, v, discrete, p, a, rhs, &discrete->needs_scalar);
     return 0;
 }
 
 #define FUNCTION_LINKAGE static inline
 #define MOTION evaluate_lane_rhs
 #define REDUCED_DYNAMICS compute_lane_accelerations
-#define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->rare)
-#define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->rare)
+#define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->needs_scalar)
+#define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->needs_scalar)
 #include "../scalar_simd/motion.h"
 
 /* Return the mask of the lanes in which the sum of n components of a (plus those of b, unless NULL) is not finite. */
@@ -43,7 +43,7 @@ static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
 /*
  * Compute the rates dy of the integrated state y at times t (s) and the outputs rhs, in all lanes. Internal states of
  * contact laws are copied from y, their rates to dy. Always return 0: lanes in which the evaluation fails are added to
- * the mask run->discrete.rare.
+ * the mask run->discrete.needs_scalar.
  */
 static int evaluate_run_rhs(
     LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
@@ -56,14 +56,16 @@ static int evaluate_run_rhs(
 
 /*
  * Compute the corrections dq, dv that close the constraints of all lanes, and their largest residuals. Return
- * `is_active`: which lanes are to be corrected. Active lanes without a finite correction are added to discrete.rare.
+ * `is_active`: which lanes are to be corrected. Active lanes without a finite correction are added to
+ * discrete.needs_scalar.
  */
 static LaneBits compute_closure_correction(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *residual)
 {
     set_pivot_limits(&run->discrete);
-    closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, residual, &run->discrete.rare);
-    run->discrete.rare |= is_active & (find_nonfinite_lanes(dq, NULL, N_X) | find_nonfinite_lanes(dv, NULL, N_X));
+    closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, residual, &run->discrete.needs_scalar);
+    run->discrete.needs_scalar |= is_active
+        & (find_nonfinite_lanes(dq, NULL, N_X) | find_nonfinite_lanes(dv, NULL, N_X));
     return is_active;
 }
 

@@ -20,8 +20,8 @@ static void uncount_end_evaluation(const LaneIntegrator *run) { (void)run; }
 
 /*
  * Try a step by Taylor series in all lanes, of length h (s) or of the longest valid length if that is shorter. Return 0
- * or a status. Lanes at singular positions or with series that are not finite are added to run->discrete.rare: their
- * scalar runs make the step. `method` is not used.
+ * or a status. Lanes at singular positions or with series that are not finite are added to run->discrete.needs_scalar:
+ * their scalar runs make the step. `method` is not used.
  */
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
@@ -31,9 +31,9 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
     (void)method;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = run->y[i];
-    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->discrete.rare);
+    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->discrete.needs_scalar);
     compute_series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
-    run->discrete.rare |= find_nonfinite_lanes(c[run->series.order], NULL, N_Y);
+    run->discrete.needs_scalar |= find_nonfinite_lanes(c[run->series.order], NULL, N_Y);
     run->series.max_step = round_step_length(run, taylor_compute_max_length(run));
     return taylor_try_series_step(run, h, p, step);
 }

@@ -23,18 +23,18 @@ static void discard_stages(LaneStep *step)
 
 /*
  * Set the masks of the lanes that accept the step, that fail, and whose stages were not found. Return whether no lane
- * accepts it. Failing lanes (rare) leave the step to their run; the mark is then reset.
+ * accepts it. Failing lanes, those in needs_scalar, leave the step to the scalar code; that mask is then reset.
  */
-static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
+static int decide_step_rejection(LaneIntegrator *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !LANE_SERIES
     step->has_no_stages = run->newton.has_no_stages;
 #else
     step->has_no_stages = (LaneBits){0};
 #endif
-    step->is_failed = run->discrete.rare & ~step->has_no_stages;
+    step->is_failed = run->discrete.needs_scalar & ~step->has_no_stages;
     step->is_accepted = ~(step->error > run->control.accept) & ~step->is_failed & ~step->has_no_stages;
-    run->discrete.rare = (LaneBits){0};
+    run->discrete.needs_scalar = (LaneBits){0};
     return !any_of(step->is_accepted);
 }
 
@@ -47,17 +47,17 @@ static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
 
 /*
  * Project the end of a step onto the constraints and compute the rates and the residuals of the closures there, in all
- * lanes. Return 0. Lanes with a large projection or numbers that are not finite are marked as rare.
+ * lanes. Return 0. Lanes with a large projection or numbers that are not finite are marked in needs_scalar.
  */
 static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters *p)
 {
     Lanes before[N_Y];
-    run->discrete.rare |= find_nonfinite_lanes(step->y, NULL, N_Y);
+    run->discrete.needs_scalar |= find_nonfinite_lanes(step->y, NULL, N_Y);
     memcpy(before, step->y, sizeof before);
     project_onto_constraints(run, step->t + step->h, step->y, END_ROUNDING(run), p);
-    run->discrete.rare |= compute_constraint_distance(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
+    run->discrete.needs_scalar |= compute_constraint_distance(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
     evaluate_run_rhs(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
-    run->discrete.rare |= find_nonfinite_lanes(step->dy, NULL, N_Y);
+    run->discrete.needs_scalar |= find_nonfinite_lanes(step->dy, NULL, N_Y);
     step->residual[0] = step->residual[1] = broadcast(0.0);
     accept_state(step->t + step->h, step->y, &run->discrete, p, &step->rhs, &step->residual[0], &step->residual[1]);
     return 0;
@@ -120,10 +120,13 @@ static void extend_stage_range(LaneStep *step, const Lanes *y)
     }
 }
 
-/* Mark the lanes whose error norm is not finite as rare. Return 0, as the other lanes continue. */
-static int is_error_not_finite(LaneIntegrator *run, Lanes error)
+/*
+ * Leave the steps whose error norm is not finite to the scalar code: add their lanes to the mask needs_scalar. Return
+ * 0, as the other lanes continue.
+ */
+static int reject_nonfinite_error(LaneIntegrator *run, Lanes error)
 {
-    run->discrete.rare |= ~(lanes_fabs(error) <= DBL_MAX);
+    run->discrete.needs_scalar |= ~(lanes_fabs(error) <= DBL_MAX);
     return 0;
 }
 
@@ -132,14 +135,14 @@ static inline Lanes read_stage_component(const LaneStep *step, int s, int i) { r
 
 /*
  * Linearize the equations of all lanes and factorize Newton's matrix 1 - hg J, hg = h gamma in s. Return 0. Lanes with
- * a vanishing pivot are marked as rare.
+ * a vanishing pivot are marked in needs_scalar.
  */
 static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 {
     copy_internal_states(&run->discrete, run->y);
     linearize(run->t, run->y, run->y + N_X, &run->discrete, p, run->dy + N_X, &run->rhs, &run->newton.linear,
-        &run->discrete.rare);
-    newton_factor(hg, &run->newton.linear, &run->discrete.rare);
+        &run->discrete.needs_scalar);
+    newton_factor(hg, &run->newton.linear, &run->discrete.needs_scalar);
     return 0;
 }
 
@@ -150,13 +153,13 @@ static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParamet
 #if IMPLICIT_STAGES
 /*
  * Factorize Newton's matrix at the complex number eta + i eta_i (s) in all lanes, into `matrix`. Return 0. Lanes with a
- * vanishing pivot are marked as rare.
+ * vanishing pivot are marked in needs_scalar.
  */
 static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *matrix)
 {
     matrix->p = run->newton.linear.p;
     matrix->value = run->newton.linear.value;
-    newton_factor_complex(eta, eta_i, matrix, &run->discrete.rare);
+    newton_factor_complex(eta, eta_i, matrix, &run->discrete.needs_scalar);
     return 0;
 }
 
@@ -217,10 +220,13 @@ static void record_newton_stage(LaneIntegrator *run, LaneStep *step, LaneBits is
     }
 }
 
-/* Store the mask of the lanes whose stages were not found (`has_failed`), except those marked as rare. Return 0. */
+/*
+ * Store the mask of the lanes whose stages were not found (`has_failed`), except those marked in needs_scalar. Return
+ * 0.
+ */
 static int mark_failed_stages(LaneIntegrator *run, LaneBits has_failed)
 {
-    run->newton.has_no_stages = has_failed & ~run->discrete.rare;
+    run->newton.has_no_stages = has_failed & ~run->discrete.needs_scalar;
     return 0;
 }
 
@@ -254,7 +260,10 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
 #endif
 
 #if !LANE_SERIES
-/* Return the number of right-hand sides of a trial step by `method` (BY_...) in each lane, without that at its end. */
+/*
+ * Return the number of right-hand sides of a trial step by `method` (BY_...) in each lane, without that at its end:
+ * stages - 1 for explicit methods and rodas5p, counted per lane for radau5 and radau9. Not compiled for Taylor series.
+ */
 static Lanes count_trial_evaluations(const LaneIntegrator *run, int method)
 {
     static const int n_stages[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES,
@@ -291,16 +300,16 @@ static int count_lanes_with_events(const LaneIntegrator *run, const LaneStep *st
  */
 static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, LaneStep *step)
 {
-    const LaneBits rare = run->discrete.rare;
+    const LaneBits needs_scalar = run->discrete.needs_scalar;
     if (!any_of(step->is_accepted) || count_lanes_with_events(run, step) < 2)
         return;
-    run->discrete.rare = (LaneBits){0};
+    run->discrete.needs_scalar = (LaneBits){0};
     dop853_compute_dense_output(run, p, step);
-    step->has_no_dense = run->discrete.rare;
+    step->has_no_dense = run->discrete.needs_scalar;
     for (int k = 0; k < N_DENSE; k++)
         step->has_no_dense |= find_nonfinite_lanes(step->dense[k], NULL, N_Y);
     step->dense_ready = 1;
-    run->discrete.rare = rare;
+    run->discrete.needs_scalar = needs_scalar;
 }
 #endif
 
@@ -310,9 +319,9 @@ static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, L
  */
 static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
-    run->discrete.rare = (LaneBits){0};
+    run->discrete.needs_scalar = (LaneBits){0};
     try_method(run, method, h, p, step);
-    step->is_failed |= run->discrete.rare & step->is_accepted;
+    step->is_failed |= run->discrete.needs_scalar & step->is_accepted;
     step->is_accepted &= ~step->is_failed;
 #if !LANE_SERIES
     if (method == BY_DOP853)

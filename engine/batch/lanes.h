@@ -133,7 +133,7 @@ static inline Lanes real_exp2(Lanes x) { return lanes_approx_exp2(x); }
 /* Return log2 x of each lane to 1e-4. */
 static inline Lanes real_log2(Lanes x) { return lanes_approx_log2(x); }
 /* Compute sine and cosine of the angle (rad) of each lane; those of large angles are computed by the C library. */
-static inline void compute_direction(Lanes angle, Lanes *sine, Lanes *cosine)
+static inline void compute_sine_and_cosine(Lanes angle, Lanes *sine, Lanes *cosine)
 {
     LaneBits is_large = {0};
     compute_sines_and_cosines(angle, sine, cosine, &is_large);
@@ -156,7 +156,7 @@ typedef struct {
     LaneContactState contact[AT_LEAST_ONE(N_CLEARANCES)];
     Lanes event_sign[AT_LEAST_ONE(N_USER_EVENTS)];
     Lanes branch[AT_LEAST_ONE(N_SWITCHES)];
-    LaneBits rare; /* lanes whose step the single runs must make */
+    LaneBits needs_scalar; /* mask of the lanes whose step the scalar code of their runs must make */
     Lanes least, least_size;
 } LaneDiscreteState;
 
@@ -195,7 +195,10 @@ static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
 }
 
 #if INTEGRATES
-/* Return the wall time since the epoch, s. */
+/*
+ * Return the wall time since the epoch, s. It measures what steps of a batch in lanes and in scalar code cost, and
+ * jumps if the clock is set.
+ */
 static double read_wall_time(void)
 {
     struct timespec now;

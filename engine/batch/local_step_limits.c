@@ -51,7 +51,10 @@ static int is_ordinary_step(const Integrator *run)
         && !is_compared && run->control.fixed <= 0.0 && run->counts.steps > 1 && run->discrete.is_frozen;
 }
 
-/* Return the number of steps of a stiff method until the lengths of both methods are compared (choose_method()). */
+/*
+ * Return the number of steps of a stiff method until the lengths of both methods are compared
+ * (switch_method_after_step()).
+ */
 static long count_steps_before_comparison(const Integrator *run)
 {
     const int phase = run->choice.steps_since_change % CHECK_STIFF_STEPS;
@@ -92,7 +95,7 @@ static void get_local_step_limits(const void *integrator, const double *paramete
         return;
     const double checked = max_of(run->audit.record[CHECK_position].worst, 0.0), rtol = get_audit_tolerance(run);
     local->limits.power = method->power;
-    local->limits.bounded = method->limiting_h_rho;
+    local->limits.limiting_h_rho = method->limiting_h_rho;
     local->limits.unstable = method->rejected_h_rho;
     local->limits.min_rho = method->stiff ? MAX_EXPLICIT_STABILITY : -INFINITY;
     local->limits.max_rho = method->stiff ? INFINITY : method->limiting_h_rho;

@@ -4,7 +4,7 @@
  * not depend on the other runs.
  */
 #define ENDING_POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
-#define STEEP_RATIO 100.0 /* accelerations: largest over median (_yield_unbounded_sample_note in result_builder.py) */
+#define OUTLIER_RATIO 100.0 /* accelerations: largest over median (_yield_unbounded_sample_note in result_builder.py) */
 
 /*
  * Return whether a run is cancelled: the batch is ending, or it must be short (KinematicBatch.must_be_short). Called as
@@ -137,14 +137,17 @@ static int advance_run(KinematicRun *run)
     return status ? status : accept_kinematic_step(run);
 }
 
-/* Return whether the largest |a| of a sample may be more than STEEP_RATIO times the median of all samples. */
-static int has_steep_sample(const RunSamples *samples)
+/*
+ * Return whether a run has an outlier: the largest |a| of a sample may be more than OUTLIER_RATIO times the median of
+ * all samples.
+ */
+static int has_acceleration_outlier(const RunSamples *samples)
 {
     long n_small = 0;
-    if (samples->largest_a <= STEEP_RATIO * samples->smallest_a)
+    if (samples->largest_a <= OUTLIER_RATIO * samples->smallest_a)
         return 0;
     for (long k = 0; k < samples->n; k++)
-        n_small += STEEP_RATIO * samples->largest[k] <= samples->largest_a;
+        n_small += OUTLIER_RATIO * samples->largest[k] <= samples->largest_a;
     return 2 * n_small >= samples->n;
 }
 
@@ -171,15 +174,15 @@ static int has_audit_finding(const KinematicBatch *batch, long i, const RunSampl
 
 /*
  * End run i: write its counts, residuals, status and phase into the batch. is_suspect is set if Python must check the
- * run: a failure, an interpolated or steep sample, or a finding of the audit. A run that was stopped before its first
- * sample becomes NEW again.
+ * run: a failure, an interpolated sample, an acceleration outlier, or a finding of the audit. A run that was stopped
+ * before its first sample becomes NEW again.
  */
 static void end_kinematic_run(const KinematicBatch *batch, long i, KinematicRun *run, int status)
 {
     const RunSamples *samples = &run->samples;
     batch->n_interpolated[i] = gudgeon_kinematic_count_interpolated(run, batch->t_interpolated + i);
     batch->is_suspect[i] = status || !samples->are_finite || run->is_start_ill_conditioned || run->n_interpolated
-        || has_steep_sample(samples) || has_audit_finding(batch, i, samples);
+        || has_acceleration_outlier(samples) || has_audit_finding(batch, i, samples);
     batch->done[i] = samples->done;
     if (samples->done) {
         batch->t_last[i] = samples->t[samples->done - 1];
@@ -212,7 +215,10 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n
 }
 #if HAS_LANES
 
-/* Return the functions of a single run that a library of lanes calls. */
+/*
+ * Return the table of function pointers (KinematicRunFunctions) of a single kinematic run that a library of lanes
+ * calls.
+ */
 const void *gudgeon_single_run_functions(void)
 {
     static const KinematicRunFunctions single = {begin_kinematic_run, advance_run, end_kinematic_run, detect_stall,

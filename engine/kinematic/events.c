@@ -178,8 +178,8 @@ static int advance_sample(const Search *search, double t1, SampledPosition *samp
 }
 
 /*
- * Return `value` with the sign that makes it negative after the zero: where it has the sign of `end_value`, or is NaN
- * as end_value is. If only one of both is NaN, return 1.
+ * Return `value` with the sign that makes it negative after the zero: -value if end_value is positive, else value. If
+ * both are NaN, return -1; if only one of them is, 1.
  */
 static double orient_event_value(double end_value, double value)
 {

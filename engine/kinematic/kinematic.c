@@ -48,8 +48,12 @@ long gudgeon_kinematic_count_interpolated(const void *integrator, double *t)
     return run->n_interpolated;
 }
 
-/* Record t, q, v at the ends of the following steps into `rows`, an array for `capacity` rows; NULL: stop recording. */
-void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
+/*
+ * Start a step record: write the ends of the following steps into `rows`, an array for `capacity` rows of t, q and v (1
+ * + 2 N_Q numbers). The next row is the first one; steps beyond `capacity` are not recorded before
+ * gudgeon_kinematic_fetch_records() is called. NULL: stop recording.
+ */
+void gudgeon_kinematic_set_recording(void *integrator, double *rows, long capacity)
 {
     KinematicRun *run = integrator;
     run->step_record = rows;
@@ -139,7 +143,7 @@ static int has_hidden_transient(double t0, double t1, const Parameters *p)
     return find_undersampled_term(t0, t1 - t0, node, 5, is_term_negligible, NULL, p) > 0.0;
 }
 #else
-/* Return 0: the scene has no terms of time alone. */
+/* Return 0, no transient: the scene has no terms of time alone. */
 static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
     (void)t0, (void)t1, (void)p;

@@ -42,14 +42,14 @@ static inline Lanes get_lane_time_after_jump(Lanes t)
 /*
  * Compute Newton's step of the closures at times t (s), with the rates and the largest |Phi|, and the motion of all
  * bodies. Inlined, both functions share sines and factors. Lanes in which a pivot vanishes are added to the mask
- * `rare`: they need their scalar run.
+ * `needs_scalar`: they need their scalar run.
  */
 __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, Lanes t, LanePosition *position,
-    Lanes *step, LaneBits *rare)
+    Lanes *step, LaneBits *needs_scalar)
 {
-    close_step(t, position->s, p, step, position->s_rate, &position->phi, rare);
+    close_step(t, position->s, p, step, position->s_rate, &position->phi, needs_scalar);
     compute_body_motion(t, position->s, position->s_rate, p, position->s_second, position->q, position->v, position->a,
-        &position->phi_dot, rare);
+        &position->phi_dot, needs_scalar);
 }
 
 /*
@@ -61,20 +61,20 @@ __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, 
 static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
     Lanes *correction)
 {
-    LaneBits is_active = ~(LaneBits){0}, is_failed = {0}, rare = {0};
+    LaneBits is_active = ~(LaneBits){0}, is_failed = {0}, needs_scalar = {0};
     Lanes before = broadcast(INFINITY), step[N_X + 1];
     int has_motion = 0;
     for (int i = 0; i < MAX_NEWTON && any_of(is_active); i++) {
         Lanes size = broadcast(0.0);
         has_motion = !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
         if (has_motion)
-            evaluate_position(p, t, position, step, &rare);
+            evaluate_position(p, t, position, step, &needs_scalar);
         else
-            close_step(t, position->s, p, step, position->s_rate, &position->phi, &rare);
+            close_step(t, position->s, p, step, position->s_rate, &position->phi, &needs_scalar);
         for (int k = 0; k < N_X; k++)
             size = get_larger_or_nan(size, compute_coordinate_size(step[k], k, extent));
         position->last_correction = size;
-        is_failed |= is_active & (rare | (size != size));
+        is_failed |= is_active & (needs_scalar | (size != size));
         is_active &= ~(is_failed | (size < NEWTON_ROUNDING) | ((size < NEWTON_CLOSED) & (size >= 0.5 * before)));
         for (int k = 0; k < N_X; k++)
             position->s[k] = select_value(is_active, position->s[k] - step[k], position->s[k]);
@@ -82,8 +82,8 @@ static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lane
         before = select_value(is_active, size, before);
     }
     if (!has_motion || any_of(is_active))
-        evaluate_position(p, t, position, step, &rare);
-    return is_failed | rare | is_active;
+        evaluate_position(p, t, position, step, &needs_scalar);
+    return is_failed | needs_scalar | is_active;
 }
 
 /*
@@ -177,8 +177,8 @@ static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, cons
         is_irregular |=
             solve_lane_positions(p, extent, a->t + half * (1.0 + work_node[i]), a, &node, &correction);
         reduced_dynamics(get_lane_time_after_jump(node.t), node.s, node.s_rate, &discrete, p, acceleration, &rhs,
-            &discrete.rare);
-        is_irregular |= discrete.rare;
+            &discrete.needs_scalar);
+        is_irregular |= discrete.needs_scalar;
         for (int k = 0; k < N_WORK; k++) {
             is_irregular |= ~(lanes_fabs(rhs.power[k]) <= DBL_MAX);
             interval_work[k] += half * work_weight[i] * rhs.power[k];

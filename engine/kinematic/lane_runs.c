@@ -367,8 +367,10 @@ static void accept_next_positions(RunLanes *lanes, LaneBits is_accepted)
 }
 
 /*
- * Complete a step that is not uniform: count earlier uniform steps, accept positions, store samples, and complete the
- * step of each run. The arguments are masks of lanes.
+ * Complete a step that is not uniform (some run is not accepted or reaches no sample): count earlier uniform steps,
+ * accept positions, store samples, and complete the step of each run. The arguments are masks of lanes. Irregular steps
+ * are made by the scalar code; lanes neither accepted nor irregular are rejected. may_double: the next step may have
+ * twice the length. Lanes without a run are skipped.
  */
 static void complete_lane_steps(RunLanes *lanes, LaneBits is_accepted, LaneBits is_irregular, LaneBits is_sample,
     LaneBits may_double)

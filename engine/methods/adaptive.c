@@ -46,7 +46,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     if (status)
         return status;
     record_inner_peaks(run, step, fraction, p);
-    flip_ignored_branches(run, step);
+    flip_passed_branches(run, step);
     update_energy_scale(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
@@ -288,7 +288,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     Step *step = &run->step;
     int event;
     double fraction;
-    choose_method(run, p);
+    switch_method_after_step(run, p);
     int status = find_event_of_step(run, samples, p, step, &fraction, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* results of a cancelled search are invalid */

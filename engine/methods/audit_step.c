@@ -8,7 +8,7 @@
 #define AUDIT_CHANGE 0.1 /* of their change over the step: allowed error of rates */
 #define AUDIT_SLIP 1e-9 /* m/s: smaller slips of sticking friction count as zero */
 #define AUDIT_DRIFT 1e2 /* tolerances: allowed sum of errors of rates */
-#define AUDIT_BOUNDED 10.0 /* tolerances: allowed error of a step limited by stability */
+#define AUDIT_STABILITY_ERROR 10.0 /* tolerances: allowed error of a step limited by stability */
 #define AUDIT_DEFECT 1e4 /* tolerances: allowed defect of the dense output */
 #define AUDIT_MEASURED_LENGTH_RATIO 1.5 /* times the longest measured step: longer steps are measured */
 #define AUDIT_MIN_LENGTH_RATIO 1e-3 /* of the longest step: shorter ones near a pole do not set the scale of events */
@@ -71,8 +71,8 @@ static void check_dense_output_rates(Integrator *run, const Step *step, double t
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
         const double elapsed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
-        const int bounded = !step->method->stiff && run->choice.h_rho > 1.0;
-        double allowed = max_of(AUDIT_DRIFT / elapsed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
+        const int is_limited = !step->method->stiff && run->choice.h_rho > 1.0;
+        double allowed = max_of(AUDIT_DRIFT / elapsed, is_limited ? AUDIT_STABILITY_ERROR / step->h : 0.0);
         double largest_error = 0.0, largest_rate = 0.0;
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
             const double weight = compute_audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);

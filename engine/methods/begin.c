@@ -24,7 +24,7 @@ static int set_initial_event_signs(Integrator *run, const Parameters *p)
     return 0;
 }
 #else
-/* Return 0: the scene has no user-defined events. */
+/* Return the status 0: the scene has no user-defined events. */
 static inline int set_initial_event_signs(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 

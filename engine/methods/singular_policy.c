@@ -69,6 +69,6 @@ static inline void reset_singular_policy(Integrator *run) { (void)run; }
 /* Do nothing: the scene does not continue its motion past singular positions. */
 static void begin_singular_policy(Integrator *run) { (void)run; }
 
-/* Return 0: no step is repeated for a singular position. */
+/* Return 0, the step is not repeated: the scene does not continue its motion past singular positions. */
 static int advance_singular_policy(Integrator *run, int status) { return (void)run, (void)status, 0; }
 #endif

@@ -208,11 +208,11 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
     run->y[2 * N_X] += compute_kinetic_energy(run, p) - before;
 }
 
-/* Return whether the error norm of a step is NaN or infinite. In lanes, the function of this name returns a mask. */
-static int is_error_not_finite(const Integrator *run, double error) { return (void)run, !isfinite(error); }
+/* Return whether an attempt must be rejected because its error norm is not finite. */
+static int reject_nonfinite_error(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
 /* Return whether the error norm of a step exceeds the accepted one: 1, or infinity for fixed steps. */
-static int is_step_rejected(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
+static int decide_step_rejection(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
  * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there,

@@ -137,12 +137,14 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
 }
 
 /*
- * Count whether the accepted step speaks against its method, and change the method of an automatic run after enough
+ * Count whether the accepted step speaks against its method, and switch the method of an automatic run after enough
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
- * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho, or when its
- * steps do not pay; the next change to it then needs twice as many steps. Called after each accepted step.
+ * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho (spectral
+ * radius of the Jacobian, 1/s), or when its steps do not pay; the next switch to it then needs twice as many steps.
+ * With films it is not left while its steps still grow (MAX_CONTRARY_GROWTH). A refused switch waits RECONSIDER_STEPS.
+ * Called after each accepted step.
  */
-static void choose_method(Integrator *run, const Parameters *p)
+static void switch_method_after_step(Integrator *run, const Parameters *p)
 {
     /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
     const int slower = run->choice.steps_since_change > MIN_COMPARE_STEPS
@@ -193,9 +195,10 @@ static double approximate_power(double x, double n) { return approx_exp2(n * app
 static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
 
 /*
- * Return the factor, MIN_SHRINK to MAX_SHRINK, from the length of a rejected step to that of the next attempt. If an
- * attempt at this step was rejected before, both errors show their order, at least MIN_ORDER_SEEN; else it is
- * compute_error_order(). The rejected length, its error and its end are stored in the run.
+ * Return the factor SAFETY e^(-1/k), clipped to MIN_SHRINK..MAX_SHRINK, from the length of a rejected step to that of
+ * the next attempt; its error e is proportional to h^k. If length and error fell since an attempt rejected before, both
+ * give k = log(e'/e) / log(h'/h), between MIN_ORDER_SEEN and 1/power. Otherwise k is compute_error_order(). The
+ * rejected length, its error and its end are stored in the run.
  */
 static double compute_shrink_factor(Integrator *run, const Step *step)
 {
@@ -363,13 +366,14 @@ static int request_retry(Integrator *run)
 }
 
 /*
- * Return whether the tried step, whose computation returned `trial_status`, is accepted, without regard to events.
+ * Accept the tried step, whose computation returned `trial_status`, or request another attempt. Events are not
+ * regarded. Return whether the step is accepted.
  * Checked are its error norm, film forces, stability, long flights, events unresolved by the stages, and missed
  * transients. If it is accepted, run->control.h is the length of the next step, or *status the cause of a failure. If
  * not, run->control.attempt holds the next attempt, maybe by another method. Fixed steps are always accepted, except to
  * repeat one without frozen branches.
  */
-static int is_step_accepted(Integrator *run, int trial_status, const Parameters *p, Step *step, int *status)
+static int accept_or_retry_step(Integrator *run, int trial_status, const Parameters *p, Step *step, int *status)
 {
     const Method *method = step->method;
     Attempt *attempt = &run->control.attempt;
@@ -475,7 +479,7 @@ static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;
-    while (!is_step_accepted(run, try_step(run, p, step), p, step, &status))
+    while (!accept_or_retry_step(run, try_step(run, p, step), p, step, &status))
         ;
     close_attempt(run);
     return status;

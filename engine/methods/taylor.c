@@ -38,8 +38,9 @@ static void uncount_end_evaluation(Integrator *run) { count_evaluations(run, -1)
 #include "../scalar_simd/taylor.h"
 
 /*
- * Compute the series at the state of the run and its longest step, unless they are stored already. All steps tried from
- * this state share the series, which counts as one evaluation unless a lane has counted it. Return 0 or the status.
+ * Compute the series at the state of the run, and from it the longest step (series.max_step), unless both are stored
+ * already. All steps tried from this state share the series, which counts as one evaluation unless a lane has counted
+ * it. Return 0 or the status.
  */
 static int expand_series(Integrator *run, const Parameters *p)
 {

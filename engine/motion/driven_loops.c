@@ -146,9 +146,10 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
 
 /*
  * Interpolate the driven loops at a time at which a loop is in a singular position (a dead centre: links in one line),
- * where its closures do not determine it. Polynomials in time pass through SINGULAR_NODES regular states before and as
- * many after; the result is in `loops`, without directions. Return 0, or nonzero if nothing moves, a node cannot be
- * solved or the polynomials do not agree.
+ * where its closures do not determine it. One Lagrange polynomial in time passes through SINGULAR_NODES regular states
+ * on either side of t, spaced so that the fastest loop coordinate moves by SINGULAR_MOVE. Positions and all three rates
+ * are interpolated into `loops`; its directions are not set. Return 0, or nonzero if nothing moves, a node cannot be
+ * solved, or the polynomial through one node fewer on either side deviates by more than INTERPOLATION_TOL.
  */
 static int interpolate_singular_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
 {

@@ -28,10 +28,11 @@ static void check_user_event(Integrator *run, int event, int n_events_before)
 }
 
 /*
- * Check the frozen branches at the end of a step, and count the successive steps that each switching function ends on
- * the wrong branch. CHECK_branch is recorded after AUDIT_WRONG_STEPS such steps, if the value exceeds its uncertainty
- * and 0.001 of its largest magnitude. Suppressed functions and functions that are continuous at their switching point
- * (`is_continuous_switch`) are not counted. Updates the largest magnitudes of the functions.
+ * Check the frozen branches at the end of a step: count the successive steps that each switching function ends on the
+ * wrong branch by more than 0.001 of its largest magnitude. Any other step restarts the count. After AUDIT_WRONG_STEPS
+ * such steps, CHECK_branch is recorded with the limit 1e-4 of that magnitude, if the value exceeds its uncertainty.
+ * Suppressed functions and functions that are continuous at their switching point (`is_continuous_switch`) are not
+ * counted. Updates the largest magnitudes of the functions.
  */
 static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 {

@@ -51,13 +51,13 @@ static int has_equal_sign_after_event(Integrator *run, int event, const double *
         && run->discrete.event_sign[event] * value[event] > 0.0;
 }
 #else
-/* Return 0: the scene has no user-defined events that depend on switching functions. */
+/* Return the status 0: the scene has no user-defined events that depend on switching functions. */
 static int update_branches_after_event(Integrator *run, int crossed_switch, const Parameters *p)
 {
     return (void)run, (void)crossed_switch, (void)p, 0;
 }
 
-/* Return 0: the scene has no user-defined events that depend on switching functions. */
+/* Return 0, the signs differ: the scene has no user-defined events that depend on switching functions. */
 static int has_equal_sign_after_event(Integrator *run, int event, const double *branches_before, const Parameters *p)
 {
     return (void)run, (void)event, (void)branches_before, (void)p, 0;
@@ -240,7 +240,7 @@ static inline int apply_drive_jump(Integrator *run, int switch_index, const Para
     return update_branches_at_current_state(run, switch_index, p);
 }
 
-/* Return 0: no drive of the scene has a rate that jumps. */
+/* Return the status 0: no drive of the scene has a rate that jumps. */
 static inline int apply_drive_jumps_now(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 

@@ -191,14 +191,14 @@ static inline void project_slips(Integrator *run, double t, double *y, const Par
     (void)run, (void)t, (void)y, (void)p;
 }
 
-/* Return 0: the scene has no friction that may stick. */
+/* Leave the friction modes unchanged, and return the status 0: the scene has no friction that may stick. */
 static inline int change_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
 }
 
-/* Return 0: the scene has no friction modes to start with. */
+/* Return the status 0: the scene has no friction modes to start with. */
 static inline int initialize_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
@@ -206,14 +206,14 @@ static inline int initialize_friction_modes(Integrator *run, const Parameters *p
 }
 
 #if N_RIGID
-/* Return 0: the scene has no friction modes to update. */
+/* Return the status 0: the scene has no friction modes to update. */
 static inline int update_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
 }
 
-/* Return 0: the scene has no friction modes that an impact changes. */
+/* Return the status 0: the scene has no friction modes that an impact changes. */
 static inline int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;

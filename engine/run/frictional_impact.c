@@ -295,7 +295,7 @@ static inline int diagnose_stall(const Integrator *run, int default_status, cons
 /* Leave the branches unchanged: no friction between rigid surfaces depends on the slip. */
 static inline void update_frozen_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
 
-/* Return 0: the scene has no friction between rigid surfaces. */
+/* Return the status 0: the scene has no friction between rigid surfaces. */
 static inline int compute_friction_impulses(
     Integrator *run, const Delassus *impact, const double *approach_speed, double *impulse, const Parameters *p,
     FrictionImpulses *friction)
@@ -304,7 +304,7 @@ static inline int compute_friction_impulses(
     return 0;
 }
 
-/* Return 0: the scene has no friction between rigid surfaces. */
+/* Return 0 J, nothing is dissipated: the scene has no friction between rigid surfaces. */
 static inline double apply_friction_impulses(const FrictionImpulses *friction, const double *impulse, double *y)
 {
     return (void)friction, (void)impulse, (void)y, 0.0;

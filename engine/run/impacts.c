@@ -303,14 +303,14 @@ static inline int diagnose_stall(const Integrator *run, int default_status, cons
     return (void)run, (void)p, default_status;
 }
 
-/* Return 0: the scene has no rigid contacts. */
+/* Return the status 0: the scene has no rigid contacts. */
 static inline int update_contacts(Integrator *run, int event, const Parameters *p)
 {
     (void)run, (void)event, (void)p;
     return 0;
 }
 
-/* Return 0: the scene has no rigid contacts. */
+/* Return the status 0: the scene has no rigid contacts. */
 static inline int initialize_rigid_contacts(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;

@@ -1,4 +1,4 @@
-/* Starts of the current and the last step, from which implicit methods extrapolate guesses of their stages. */
+/* States and rates at the starts of the current and the last step, for guesses of the stages of implicit methods. */
 #ifndef GUDGEON_ITERATION_HISTORY_H
 #define GUDGEON_ITERATION_HISTORY_H
 

@@ -68,10 +68,12 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
 }
 
 /*
- * Find the maximum of a joint's force inside a step up to `fraction` by parabolas through three points, and record each
- * evaluated force. force_begin, force_end: the forces at both ends, N. The search ends after MAX_PARABOLAS, or where
- * the parabola predicts a gain below the tolerance (PEAK_TOL). Called if a force rose before the step and falls at its
- * end, or a stage exceeds both ends. The dense output must have been computed.
+ * Find the maximum of a joint's force inside a step up to `fraction` by parabolas through three points, and record
+ * force_begin and each evaluated force. force_begin, force_end: the forces at both ends, N. The first middle point is
+ * the integration node with the largest force. The search ends after MAX_PARABOLAS, or where the parabola predicts a
+ * gain below the tolerance: PEAK_TOL rtol, clipped to MIN_PEAK_TOL..MAX_PEAK_TOL, relative to the largest force. Called
+ * if a force rose before the step and falls at its end, or a stage exceeds both ends. The dense output must have been
+ * computed.
  */
 static void record_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
     double force_end,

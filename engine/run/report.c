@@ -30,18 +30,18 @@ static void report_progress(const Integrator *run, double *time_advance, long *s
         const int user_event = friction - N_FRICTIONS;
         const int end = user_event >= 0 ? END_EVENT : friction >= 0 ? END_FRICTION
             : switch_index >= 0 ? END_SWITCH : END_CONTACT;
-        ended_steps[end] += run->progress.ended[k];
+        ended_steps[end] += run->progress.n_steps_ended[k];
     }
 }
 
 /* Return whether Python must fetch the lists of contacts and events, or the step record, before the run resumes. */
-int gudgeon_run_full(const void *integrator) { return has_full_lists(integrator); }
+int gudgeon_run_has_full_lists(const void *integrator) { return has_full_lists(integrator); }
 
 /*
- * Return the number of user-defined events and contacts that wait in the lists until Python fetches them, plus that of
- * contacts that still last.
+ * Return the number of contacts and user-defined events that wait in the lists until Python fetches them, plus that of
+ * contacts that still last. 0: there is nothing to fetch.
  */
-int gudgeon_run_listed(const void *integrator)
+int gudgeon_run_count_listed(const void *integrator)
 {
     const Integrator *run = integrator;
     int count = run->contacts.n_impacts + run->events.n;

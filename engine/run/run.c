@@ -62,8 +62,8 @@ static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
 
 /*
  * Update the largest residuals |Phi| and |Phi_dot| of the closures so far with those of the current state. residuals:
- * these two there, if known; NULL: accept_state() computes them and accepts the state. Return 0 or the status of
- * accept_state().
+ * these two, if the lane of an accepted step has computed them. NULL: accept_state() computes them, and stores driven
+ * loops for later times. Return 0 or the status of accept_state().
  */
 static int update_residuals(Integrator *run, const double *residuals, const Parameters *p)
 {

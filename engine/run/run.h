@@ -213,7 +213,7 @@ typedef struct {
  */
 typedef struct {
     ProgressMonitor monitor;
-    long ended[N_EVENT_FUNCTIONS + 1];
+    long n_steps_ended[N_EVENT_FUNCTIONS + 1];
     int no_advance, short_steps;
 } Progress;
 

@@ -45,9 +45,10 @@ static int is_slip_residual(const Integrator *run, const double *direction, doub
 }
 
 /*
- * Remove the residual slips of sticking friction from the velocities in y, by impulses of that friction, and return
- * whether there were any. rhs: outputs at y. The impulse of one element leaves the others at rest. Slips up to
- * MIN_SLIP, and those that are too large for an error of the step (is_slip_residual()), are kept.
+ * Remove the residual slips of sticking friction from the velocities in y, element by element, by an impulse of its
+ * friction that leaves the other elements at rest. Return whether there were any; the caller then evaluates the
+ * right-hand side again, as rhs (outputs at the first y) is not changed. Slips up to MIN_SLIP, those that are too large
+ * for an error of the step (is_slip_residual()), and elements without a positive response are kept.
  */
 static int remove_slip_residuals(Integrator *run, double t, double *y, const RhsOutputs *rhs, const Parameters *p)
 {

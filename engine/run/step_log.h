@@ -45,7 +45,7 @@ static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->resid
 static inline void count_step_end(Integrator *run, int event, int is_at_beginning)
 {
     run->progress.no_advance = is_at_beginning ? run->progress.no_advance + 1 : 0;
-    run->progress.ended[event < 0 ? N_EVENT_FUNCTIONS : event]++;
+    run->progress.n_steps_ended[event < 0 ? N_EVENT_FUNCTIONS : event]++;
 }
 
 /* Return whether more than MAX_NO_ADVANCE successive steps were ended by events at their beginning. */
@@ -65,13 +65,13 @@ static inline int detect_short_step_stall(Integrator *run, int is_short)
 /*
  * Count a step in the progress monitor and return whether the run no longer advances towards t_end (s), by
  * detect_stall(). When the monitor starts to compare MONITOR_STEPS new steps, the counts of the event functions that
- * ended steps restart; a stall keeps them for the report. Called before each step.
+ * ended steps restart; a stall keeps them for the report. Called before each step of a method with step-size control.
  */
 static inline int detect_run_stall(Integrator *run, double t_end)
 {
     const int stalled = detect_stall(&run->progress.monitor, run->t, t_end);
     for (int k = 0; k < N_EVENT_FUNCTIONS && !stalled && run->progress.monitor.steps % MONITOR_STEPS == 1; k++)
-        run->progress.ended[k] = 0;
+        run->progress.n_steps_ended[k] = 0;
     return stalled;
 }
 

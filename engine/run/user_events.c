@@ -224,13 +224,13 @@ static int initialize_event_signs(Integrator *run, double fixed_step, const Para
     return evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 #else
-/* Return 0: the scene has no user-defined events. */
+/* Return the status 0: the scene has no user-defined events. */
 static inline int record_user_events_at_run_end(Integrator *run, double fixed_step, const Parameters *p)
 {
     return (void)run, (void)fixed_step, (void)p, 0;
 }
 
-/* Return 0: the scene has no user-defined events. */
+/* Return the status 0: the scene has no user-defined events. */
 static inline int initialize_event_signs(Integrator *run, double fixed_step, const Parameters *p)
 {
     return (void)run, (void)fixed_step, (void)p, 0;
@@ -321,7 +321,7 @@ typedef struct {
 /* Return a placeholder: nothing can hold an event function at zero in this scene. */
 static StateBeforeEvent copy_state_before_event(const Integrator *run) { return (void)run, (StateBeforeEvent){0}; }
 
-/* Return 0: nothing can hold an event function at zero in this scene. */
+/* Return the status 0: nothing can hold an event function at zero in this scene. */
 static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
     const Parameters *p)
 {

@@ -24,7 +24,7 @@ static inline int get_motion_index(int k) { return k < 2 * N_X ? k : k + N_WORK;
 
 /*
  * Store the stiffness estimate h rho of a tried step, its length times the spectral radius that its stages show. 0: no
- * estimate. Read by choose_method().
+ * estimate. Read by switch_method_after_step().
  */
 static inline void store_stiffness_estimate(IntegratorOf *run, Real h_rho) { run->choice.h_rho = h_rho; }
 

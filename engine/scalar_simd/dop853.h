@@ -145,9 +145,9 @@ static int dop853_try_step(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     }
     dop853_compute_stage(DOP853_STAGES, h, run->y, step->k, step->y);
     step->error = dop853_estimate_error(run, step);
-    if (is_error_not_finite(run, step->error))
+    if (reject_nonfinite_error(run, step->error))
         return NOT_FINITE;
-    if (is_step_rejected(run, step))
+    if (decide_step_rejection(run, step))
         return 0;
     const int status_last = finish_step(run, step, p);
     if (status_last)

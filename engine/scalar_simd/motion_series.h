@@ -34,7 +34,7 @@ static inline Real evaluate_motion_series(const MotionSeries *series, const Real
     if (series->body < 0)
         return axis ? y : x;
     if (direction->body != series->body)
-        compute_direction(q[2], &direction->sine, &direction->cosine);
+        compute_sine_and_cosine(q[2], &direction->sine, &direction->cosine);
     direction->body = series->body;
     const Real arm_x = direction->cosine * x - direction->sine * y;
     const Real arm_y = direction->sine * x + direction->cosine * y;

@@ -2,8 +2,8 @@
 
 /*
  * Guess the stages z of a step of length h (s), relative to its beginning, as the start of Newton's iteration. If the
- * step continues the last one (newton.can_extrapolate), its Hermite cubic is extrapolated. Else the rates at the beginning
- * are integrated, for positions with accelerations.
+ * step continues the last one (newton.can_extrapolate), its Hermite cubic is extrapolated. Else the rates at the
+ * beginning are integrated, for positions with accelerations.
  */
 static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
 {
@@ -164,7 +164,7 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
                 distance = real_max(real_abs(change[s][i]) * run->norm.weight[i], distance);
             }
         distance = select_value(is_active, distance, make_real(0.0));
-        if (is_error_not_finite(run, distance))
+        if (reject_nonfinite_error(run, distance))
             return NOT_FINITE;
         Mask is_found = is_active & (distance <= rounding);
         if (pass > 0)
@@ -254,7 +254,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         count_stage_evaluations(run, large, 1);
         step->error = select_value(large, RADAU(estimate_error)(run, h, dy, stage_sum, r, u), step->error);
     }
-    if (is_error_not_finite(run, step->error))
+    if (reject_nonfinite_error(run, step->error))
         return NOT_FINITE;
-    return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
+    return decide_step_rejection(run, step) ? 0 : finish_step(run, step, p);
 }

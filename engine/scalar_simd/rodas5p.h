@@ -140,8 +140,8 @@ static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, St
         step->y[i] = y[i] + step->k[7][i];
     for (int i = 0; i < N_Y; i++)
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
-    if (is_error_not_finite(run, step->error))
+    if (reject_nonfinite_error(run, step->error))
         return NOT_FINITE;
     store_stiffness_estimate(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
-    return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
+    return decide_step_rejection(run, step) ? 0 : finish_step(run, step, p);
 }

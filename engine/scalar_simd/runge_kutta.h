@@ -71,9 +71,9 @@ static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real 
         error = real_max(real_abs(h * slope) * run->norm.weight[i], error);
     }
     step->error = real_max(step->error, error);
-    if (is_error_not_finite(run, step->error))
+    if (reject_nonfinite_error(run, step->error))
         return NOT_FINITE;
-    if (is_step_rejected(run, step))
+    if (decide_step_rejection(run, step))
         return 0;
     estimate_stiffness_at_end(run, step, h, y, step->k[tableau->stages - 1]);
     return 0;

@@ -25,18 +25,20 @@
 #define MAXIMUM_RATIO_STIFF 1.1 /* the same for stiff methods, whose stages have larger errors */
 
 /*
- * Return the ratio of the next length to that of an accepted step with this error (tolerances) by the PI controller,
- * its limit by stability and the largest ratio by the observed order of error growth. error_before: error of the step
- * before; stability: h rho; power, bounded: of the method. Limits of the ratio itself are left to the caller.
+ * Return the ratio of the next length to that of an accepted step with this error (tolerances), by the PI controller.
+ * For h rho > 1 (stability) it is at most STABLE_GROWTH limiting_h_rho / (h rho), and for observed_order power > 1 at
+ * most SAFETY error^(-1/observed_order). error_before: error of the step before. power, limiting_h_rho: numbers of the
+ * method, its exponent of the step-size control and the h rho at which stability limits its steps. Limits of the ratio
+ * itself are left to the caller.
  */
 static inline Real compute_length_ratio(Real error, Real error_before, Real stability, Real observed_order, Real power,
-    Real bounded)
+    Real limiting_h_rho)
 {
     Real ratio = SAFETY * real_exp2(power
         * (LAST_ERROR_EXPONENT * real_log2(error_before) - ERROR_EXPONENT * real_log2(error)));
     const Mask is_limited = stability > 1.0, is_stiffer = observed_order * power > 1.0;
     if (any_of(is_limited))
-        ratio = select_value(is_limited, real_min(ratio, STABLE_GROWTH * bounded / stability), ratio);
+        ratio = select_value(is_limited, real_min(ratio, STABLE_GROWTH * limiting_h_rho / stability), ratio);
     if (any_of(is_stiffer)) {
         const Real by_order = SAFETY * real_exp2(-1.0 / observed_order * real_log2(error));
         ratio = select_value(is_stiffer, real_min(ratio, by_order), ratio);

@@ -144,7 +144,7 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
             run->series.next_lost[i] = add_compensated(&step->y[i], run->series.lost[i] + change[i]);
         }
         step->error = is_adaptive ? h / run->series.max_step : make_real(0.0); /* root of the error: accepted up to 1 */
-        if (!is_repeated && is_step_rejected(run, step))
+        if (!is_repeated && decide_step_rejection(run, step))
             return 0;
         status = finish_step(run, step, p);
         if (!is_adaptive)

@@ -289,7 +289,7 @@ int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, cons
 #include "../scalar_simd/scalar.h"
 
 /* Compute sine and cosine of an angle (rad) by the operations of vectors of angles, so that both give the same bits. */
-static void compute_direction(double angle, double *sine, double *cosine)
+static void compute_sine_and_cosine(double angle, double *sine, double *cosine)
 {
     const Four angles = {angle, angle, angle, angle};
     Four sines, cosines;

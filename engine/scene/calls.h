@@ -70,8 +70,8 @@ void gudgeon_run_record(void *integrator, double *rows, long capacity);
 long gudgeon_run_recorded(void *integrator);
 void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes);
 void gudgeon_run_stop(void *integrator, int stop);
-int gudgeon_run_full(const void *integrator);
-int gudgeon_run_listed(const void *integrator);
+int gudgeon_run_has_full_lists(const void *integrator);
+int gudgeon_run_count_listed(const void *integrator);
 int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *discrete,
     signed char *codes);
 int gudgeon_run_impacts(void *integrator, int last, int capacity, double *numbers, int *joints);
@@ -128,7 +128,7 @@ size_t gudgeon_kinematic_size(void);
 void gudgeon_kinematic_begin(
     void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
     double poll_interval);
-void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
+void gudgeon_kinematic_set_recording(void *integrator, double *rows, long capacity);
 long gudgeon_kinematic_fetch_records(void *integrator);
 void gudgeon_kinematic_restart(void *integrator);
 void gudgeon_kinematic_progress(const void *integrator, double *t, double *time_advance, long *steps);

@@ -194,7 +194,7 @@ static int has_frictional_inconsistency(const Delassus *contacts, int only_appro
     return 0;
 }
 #else
-/* Return 0: without friction no diagonal entry of D is negative. */
+/* Return 0, no inconsistency: without friction no diagonal entry of D is negative. */
 static inline int has_frictional_inconsistency(const Delassus *contacts, int only_approaching, const Parameters *p)
 {
     return (void)contacts, (void)only_approaching, (void)p, 0;

@@ -216,7 +216,7 @@ static void bracket_first_zeros(const Integrator *run, Step *step, const Paramet
 }
 
 #else
-/* Return 0: the scene has no watched functions that a step must resolve. */
+/* Return 0, the step is resolved: the scene has no watched functions. */
 static inline int is_step_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
@@ -229,7 +229,7 @@ static inline void bracket_first_zeros(const Integrator *run, const Step *step, 
     (void)run, (void)step, (void)p;
 }
 
-/* Return 0 and set *value to 0: the scene has no watched functions. */
+/* Return 0, no sample is negative, and set *value to 0: the scene has no watched functions. */
 static inline double find_first_negative_sample(
     const Integrator *run, const Step *step, int index, const Parameters *p, double *value)
 {

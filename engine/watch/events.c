@@ -6,13 +6,13 @@
 
 #define LONG_STEP_RATIO 7.0 /* to the last step: step-size control alone lets a step grow by less */
 enum { N_INNER_SAMPLES = 8 };
-#define MAX_IGNORED_BRANCH_ERROR 0.1 /* of the tolerance: accepted change of a step by a branch that is not switched */
+#define MAX_PASSED_BRANCH_ERROR 0.1 /* of the tolerance: accepted change of a step by a branch that is not switched */
 
 /*
  * Change the branch of each switching point that the step passes without an event (step->passed); a second call
  * restores the branches. Called around an evaluation on the new branches, and when the step is accepted.
  */
-static void flip_ignored_branches(Integrator *run, const Step *step)
+static void flip_passed_branches(Integrator *run, const Step *step)
 {
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
@@ -35,11 +35,11 @@ static int has_negative_switch_at_end(const Integrator *run, const Step *step)
  * Mark in step->passed the switching points that the step may pass without an event, and return whether there is any.
  * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch()),
  * crossed near the end of the step. The error of the frozen branch is at most the step times the difference of the
- * rates at its end. Below MAX_IGNORED_BRANCH_ERROR tolerances, step->dy and step->rhs are replaced by those of the new
+ * rates at its end. Below MAX_PASSED_BRANCH_ERROR tolerances, step->dy and step->rhs are replaced by those of the new
  * branch. Otherwise no point is passed, and suppressed ones are searched again. Also sets step->branch_error. Called by
  * find_first_event() before zeros are searched.
  */
-static int ignore_negligible_switches(Integrator *run, Step *step, const Parameters *p)
+static int pass_negligible_switches(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y], largest_change = 0.0;
     int has_passed = 0;
@@ -52,22 +52,23 @@ static int ignore_negligible_switches(Integrator *run, Step *step, const Paramet
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = is_continuous_switch[k] && watched_index[gap_function] < 0 && run->control.fixed <= 0.0;
-        const int may_pass = is_of_law || k == run->roots.suppressed_switch; /* fixed steps have no tolerance to compare with */
+        /* of laws only with step-size control: fixed steps have no tolerance to compare with */
+        const int may_pass = is_of_law || k == run->roots.suppressed_switch;
         step->passed[k] = may_pass && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
         has_passed |= step->passed[k];
     }
     if (!has_passed)
         return 0;
-    flip_ignored_branches(run, step);
+    flip_passed_branches(run, step);
     const int status = evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs);
-    flip_ignored_branches(run, step); /* frozen until the step is accepted */
+    flip_passed_branches(run, step); /* frozen until the step is accepted */
     for (int k = 0; k < 2 * N_X && !status; k++)
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     if (!status && all_finite(dy, N_Y))
         step->branch_error = largest_change;
-    if (step->branch_error < MAX_IGNORED_BRANCH_ERROR) {
+    if (step->branch_error < MAX_PASSED_BRANCH_ERROR) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->rhs = rhs;
@@ -373,7 +374,7 @@ static int is_pole(Integrator *run, const Step *step, double fraction, int user_
     return isinf(rhs.event[user_event]);
 }
 #else
-/* Return 0: the scene has no user-defined events. */
+/* Return 0, no pole: the scene has no user-defined events. */
 static inline int is_pole(Integrator *run, const Step *step, double fraction, int user_event, const Parameters *p)
 {
     return (void)run, (void)step, (void)fraction, (void)user_event, (void)p, 0;
@@ -388,7 +389,7 @@ static inline int is_pole(Integrator *run, const Step *step, double fraction, in
  */
 static double find_first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
-    const int has_passed = ignore_negligible_switches(run, step, p);
+    const int has_passed = pass_negligible_switches(run, step, p);
     bracket_first_zeros(run, step, p);
     double fraction = find_first_crossing(run, step, p, event);
     if (*event >= 0 && has_passed) {
@@ -431,11 +432,11 @@ static double compute_rate_jump(const Integrator *run, const double *dy_before)
 }
 
 /*
- * Suppress a switching point in the next step (roots.suppressed_switch) if the motion crossed it twice within a thousandth of the
- * step length; otherwise end a suppression. An example is a journal at rest in its film. Called at each change of
- * branch. Both branches must meet there, or differ by rounding only (dy_before: rates of the previous branch). The next
- * step is limited to roots.monitor: 20 times the maximum of the time between the crossings, the previous limit and 100
- * resolutions of time.
+ * Suppress a switching point in the next step (roots.suppressed_switch) if the motion crossed it twice within a
+ * thousandth of the step length; otherwise end a suppression. An example is a journal at rest in its film. Called at
+ * each change of branch. Both branches must meet there, or differ by rounding only (dy_before: rates of the previous
+ * branch). The next step is limited to roots.monitor: 20 times the maximum of the time between the crossings, the
+ * previous limit and 100 resolutions of time.
  */
 static void suppress_repeated_switch(Integrator *run, int switch_index, const double *dy_before)
 {

@@ -91,8 +91,9 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
 #if N_TERMS
 /*
  * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part [begin, end]
- * of the step. By its bounds, it may leave the parabola through them by more than MAX_TERM_EXCESS of its range over the
- * step. That range is computed into step->spread on the first call for the step.
+ * of the step. By bounds of its slope, the term may leave the parabola through them by more than MAX_TERM_EXCESS of its
+ * range over the step. That range is computed into step->term_range on the first call for the step (before: negative).
+ * Return 1 if a bound is NaN.
  */
 static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
@@ -118,7 +119,7 @@ static int may_terms_oscillate_between(Step *step, double begin, double end, con
     return 0;
 }
 #else
-/* Return 0: the scene has no terms of time alone. */
+/* Return 0, no oscillation: the scene has no terms of time alone. */
 static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
     return (void)step, (void)begin, (void)end, (void)p, 0;

@@ -2,11 +2,11 @@
  * Search for contacts in a step: the first zero of a joint's gap or penetration, with a proof that none precedes it.
  * The event function is the gap of an open contact, or the penetration of a closed one.
  *
- * classify_gap_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest value
- * that the rates of neighbouring stages show. The dense output differs from the stages by DENSE_ERROR tolerances at
- * most. Otherwise find_first_gap_zero() bisects the dense output. On each part the event function is the cubic Hermite
- * polynomial of both ends within an error. That error is the one measured in the middle of the part before the
- * bisection; in theory its halves have a sixteenth of it.
+ * classify_gap_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest
+ * difference quotient of the rates of neighbouring stages. The dense output differs from the stages by at most
+ * DENSE_ERROR tolerances. Otherwise find_first_gap_zero() bisects the dense output. On each part the event function is
+ * the cubic Hermite polynomial of both ends within an error. That error is the one measured in the middle of the part
+ * before the bisection; in theory its halves have a sixteenth of it.
  *
  * Guarantee: no zero of the dense output is missed, and none before the located one. It assumes that the error of a
  * half does not exceed the measured error of the whole, on parts of at most a quarter of the step.

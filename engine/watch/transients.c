@@ -51,7 +51,7 @@ static double find_missed_transient(Integrator *run, Step *step, const Parameter
         step->t, step->h, step->method->error_nodes, step->method->n_error_nodes, has_small_defect, &defect, p);
 }
 #else
-/* Return 0: the scene has no terms of time alone that may act between the stages. */
+/* Return the fraction 0, no missed transient: the scene has no terms of time alone. */
 static double find_missed_transient(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;

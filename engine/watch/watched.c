@@ -268,8 +268,9 @@ static int classify_event_functions(void *context, double begin, double end, int
 #if WATCHES_STATE
 /*
  * Return whether no watched function can be negative between the stages of an explicit step. Bounds of the state are
- * the range of the stages, extended by a quarter; they decide most steps. Functions that are held at zero within their
- * uncertainty count as not negative. Called by bracket_first_zeros() before the dense output is bounded.
+ * the range of the stages, extended by a quarter; they decide most steps. A function that may be undefined in these
+ * bounds or is negative at the end gives 0, unless it is held at zero within its uncertainty. uncertainties: computed
+ * when first needed. Called by bracket_first_zeros() before the dense output is bounded.
  */
 static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
     const Parameters *p)
@@ -315,7 +316,7 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
     (void)bisect_interval(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
 }
 
-/* Return 0: bounds of the watched functions resolve every step. */
+/* Return 0, the step is resolved: bounds of the watched functions resolve every step. */
 static int is_step_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;

@@ -61,7 +61,7 @@ class Constraints(Freezable):
         first, second = self._find_point_frame(joint.first), self._find_point_frame(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named_expressions = zip(kind.row_names, kind.row_units, expressions, strict=True)
-        other_bodies = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
+        other_bodies = [joint.options[name] for name in kind.third_bodies]  # a gear's carrier
         bodies = self._list_bodies(first, second) + [
             self.geometry.bodies[name] for name in other_bodies if name != GROUND
         ]

@@ -43,7 +43,7 @@ theta_i, beta_i, u_x, u_y, contour_depth, contour_slope = map(
     _make_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
 )
 beta_rate, slant, steep, F_N = map(_make_symbol, ("beta_rate", "slant", "steep", "F_N"))
-along = _make_symbol("along")  # position of a slider's corner along its guide
+position_along_guide = _make_symbol("along")  # position of a slider's corner along its guide
 de_n, across, lean = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, d′/e
 
 
@@ -104,10 +104,10 @@ def _make_wall_gap(clearance: Clearance, wall: Wall) -> list[Assignment]:
     corner's radius. e is the displacement of that centre towards the wall from the middle of the guide.
     """
     return [
-        Assignment(along, e_y * n_x - e_x * n_y),
+        Assignment(position_along_guide, e_y * n_x - e_x * n_y),
         Assignment(e, e_x * n_x + e_y * n_y - wall.rise),
         Assignment(delta, e - clearance.pair.c),
-        Assignment(deltadot, de_x * n_x + de_y * n_y + omega_i * along),
+        Assignment(deltadot, de_x * n_x + de_y * n_y + omega_i * position_along_guide),
         Assignment(de_t, de_y * n_x - de_x * n_y),
     ]
 
@@ -183,11 +183,11 @@ def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def make_wall_moment_equation(F_n: sp.Expr) -> Assignment:
-    """Return the equation of the moment about the guide's point at a wall: that of the dry contact minus `along` F_n.
+    """Return the equation of the moment about the guide's point at a wall: that of the dry contact less that of F_n.
 
-    `along` is the position of the slider's corner along the guide, the lever arm of the normal force F_n.
+    The lever arm of F_n is the position of the slider's corner along the guide (`along` in C).
     """
-    return Assignment(M_i, make_part_symbol(M_i, "dry") - along * F_n)
+    return Assignment(M_i, make_part_symbol(M_i, "dry") - position_along_guide * F_n)
 
 
 def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[Assignment]:
@@ -235,7 +235,7 @@ def make_blend_equations(clearance: Clearance, is_closed: bool = False) -> list[
         replacement = {delta: depth if is_closed else sp.Max(0, delta)}
         return [
             Assignment(_make_symbol(name), sp.sympify(expression).xreplace(replacement))
-            for name, expression in clearance.mixed.steps.items()
+            for name, expression in clearance.mixed.equations_by_name.items()
         ]
     fraction = sp.Min(1, delta / clearance.transition)
     return [Assignment(share, fraction if is_closed else sp.Max(0, fraction))]

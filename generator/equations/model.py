@@ -58,8 +58,8 @@ def check_event_varies(event: EventSpec, derived_event: Event, geometry: Geometr
 
     `derived_event`: the event as derived; `geometry`: that of the absolute coordinates.
     """
-    moving = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
-    if not geometry.symbols.expand_definitions(derived_event.expression).free_symbols & moving:
+    motion_symbols = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
+    if not geometry.symbols.expand_definitions(derived_event.expression).free_symbols & motion_symbols:
         message, hint = f"{event.zero.address} never changes: its terms cancel", "expected an expression that varies"
         raise BadValueError(message, event.zero.where, hint)
 
@@ -417,7 +417,7 @@ def make_model(scene: Scene) -> Model:
         baumgarte,
         events,
     )
-    add_further_parameters(model)
+    add_parameters_outside_equations(model)
     model.freeze()
     return model
 
@@ -439,7 +439,7 @@ def add_material_parameters(scene: Scene, parameter_table: ParameterTable) -> No
             parameter_table.add_choice(choice.address, names, scene.materials[choice.address])
 
 
-def add_further_parameters(model: Model) -> None:
+def add_parameters_outside_equations(model: Model) -> None:
     """Add parameters for values that no equation contains: ground points, the start, and Baumgarte's gain of stick.
 
     The gain is added only if there is dry friction, which may stick.

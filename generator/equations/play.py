@@ -41,31 +41,31 @@ VELOCITY_FLOOR = 1e-6  # m/s, lower bound of the approach speed that an onset st
 
 @dataclass(frozen=True)
 class LawEquations:
-    """A law with its symbols filled in; `steps` are abbreviations, then the results of its role.
+    """A law with its symbols filled in; `equations_by_name` are abbreviations, then the results of its role.
 
-    `variables` are the arguments of its function: those of its role, and further ones that it reads. `numbers` are
+    `variables` are the arguments of its function: those of its role, and others that it reads. `numbers` are
     parameters by their names in the file, `derived` those that the law computes from them and from the pair.
     """
 
     law: Law
     options: Mapping[str, str | bool]
     variables: tuple[sp.Symbol, ...]
-    steps: Mapping[str, sp.Expr]
+    equations_by_name: Mapping[str, sp.Expr]
     parameters: Mapping[str, sp.Expr]
     derived: Mapping[str, sp.Expr]
 
     @property
     def results(self) -> tuple[str, ...]:
-        """Return the names in `steps` of the law's results, such as "F_n", and of the rates of its internal states."""
+        """Return the names in `equations_by_name` of results, such as "F_n", and of the rates of internal states."""
         return tuple(make_law_identifier(self.law, name) for name in self.law.results)
 
     @property
-    def further_variables(self) -> tuple[str, ...]:
-        """Return the names of the variables that the law reads in addition to those of its role.
+    def variables_outside_role(self) -> tuple[str, ...]:
+        """Return the names of the variables outside its role that the law reads.
 
         The role is normal, friction, film or mixed.
         """
-        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
+        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.variables_outside_role)
 
 
 @dataclass(frozen=True)
@@ -126,8 +126,8 @@ class Clearance:
         return self.friction.law.states if self.friction else ()
 
     @property
-    def further_arguments(self) -> tuple[sp.Expr, ...]:
-        """Return the arguments of the joint's functions in addition to e, ė and angular velocities.
+    def surface_arguments(self) -> tuple[sp.Expr, ...]:
+        """Return the arguments by the surface of the joint's functions, in addition to e, ė and angular velocities.
 
         They are the normal of a wall, or the angle of a bearing with a contour; () for a circular bearing.
         """
@@ -265,15 +265,15 @@ def _derive_law(
         derived[name] = derive_constant(name, expression, meaning)
         return derived[name]
 
-    steps = build_law(
+    equations_by_name = build_law(
         law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Unevaluated)
     )
-    read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
-    unused_names = {name for name in law.further if name not in read_names}
+    read_names = {symbol.name for step in equations_by_name.values() for symbol in step.free_symbols}
+    unused_names = {name for name in law.variables_outside_role if name not in read_names}
     law_variables = tuple(symbol for name, symbol in variables.items() if name not in unused_names)
     if law.name in USER_LAWS:
-        check_sampled_values(law, law_variables, steps, parameter_table)
-    equations = LawEquations(law, law_use.options, law_variables, steps, parameters, derived)
+        check_sampled_values(law, law_variables, equations_by_name, parameter_table)
+    equations = LawEquations(law, law_use.options, law_variables, equations_by_name, parameters, derived)
     return _rename_user_law(equations) if law.name in USER_LAWS else equations
 
 
@@ -283,7 +283,7 @@ def make_law_identifier(law: Law, name: str) -> str:
     It is unchanged, except in a user-defined law: there the ending `__` is appended, unless the role of the law defines
     the name (`delta`, `F_n`). No fixed name contains `__`, and neither does a result of `make_identifier`.
     """
-    fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
+    fixed = {*VARIABLES[law.role], *law.variables_outside_role, *RESULTS[law.role]}
     return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 
@@ -295,7 +295,11 @@ def _rename_user_law(equations: LawEquations) -> LawEquations:
     law = equations.law
     symbols = {
         sp.Symbol(name, real=True): sp.Symbol(make_law_identifier(law, name), real=True)
-        for name in (*equations.steps, *(state.name for state in law.states))
+        for name in (*equations.equations_by_name, *(state.name for state in law.states))
     }
-    steps = {make_law_identifier(law, name): value.xreplace(symbols) for name, value in equations.steps.items()}
-    return replace(equations, variables=tuple(symbols.get(s, s) for s in equations.variables), steps=steps)
+    equations_by_name = {
+        make_law_identifier(law, name): value.xreplace(symbols) for name, value in equations.equations_by_name.items()
+    }
+    return replace(
+        equations, variables=tuple(symbols.get(s, s) for s in equations.variables), equations_by_name=equations_by_name
+    )

@@ -18,7 +18,7 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError, LawError
 from gudgeon.generator.kinds.laws.built import PAIR, probe_law
-from gudgeon.generator.kinds.laws.law import FURTHER_VARIABLES, RESULTS, USER_LAWS, VARIABLES, Law, find_all_laws
+from gudgeon.generator.kinds.laws.law import RESULTS, USER_LAWS, VARIABLES, VARIABLES_OUTSIDE_ROLE, Law, find_all_laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_law_name, format_law_prefix
 from gudgeon.generator.mechanism import LawUse, Quantity, Scene, make_onset_value
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, find_classes
@@ -158,7 +158,7 @@ def check_units(law: Law, law_use: LawUse) -> None:
     dimension_finder = _DimensionFinder(law, dimension_of_symbol)
     for name, value in probed_law.derived.items():
         dimension_of_symbol[f"probe_{name}"] = dimension_finder.find_dimension(name, value)
-    for name, step in probed_law.steps.items():
+    for name, step in probed_law.equations_by_name.items():
         dimension_found = dimension_finder.find_dimension(name, step)
         dimension_of_symbol[name] = dimension_found
         expected_dimension = VELOCITY if name.endswith("_rate") else _RESULT_DIMENSIONS.get(name)
@@ -334,7 +334,7 @@ class _LawNames:
         self.law = law
         self.local_names = [
             *(state.name for state in law.states),
-            *(name for name in probed_law.steps if name not in law.results),
+            *(name for name in probed_law.equations_by_name if name not in law.results),
         ]
         self.parameter_names = [*law_use.quantities, *probed_law.derived]
 
@@ -343,7 +343,7 @@ class _LawNames:
         fixed_names = {
             *PAIR,
             "transition",
-            *itertools.chain(*VARIABLES.values(), *FURTHER_VARIABLES.values(), *RESULTS.values()),
+            *itertools.chain(*VARIABLES.values(), *VARIABLES_OUTSIDE_ROLE.values(), *RESULTS.values()),
         }
         all_names = [*self.local_names, *self.parameter_names]
         for name in all_names:
@@ -381,19 +381,22 @@ def _format_law_prefix(law: Law) -> str:
 
 
 def check_sampled_values(
-    law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], parameter_table: ParameterTable
+    law: Law,
+    variables: tuple[sp.Symbol, ...],
+    equations_by_name: Mapping[str, sp.Expr],
+    parameter_table: ParameterTable,
 ) -> None:
     """Raise LawError if an equation of a law is not a finite real number at a sampled state, with the file's values.
 
-    `variables`: the symbols that are sampled (`_SAMPLE_VALUES`); `steps`: the equations by name, in order. A fraction
+    `variables`: the symbols that are sampled (`_SAMPLE_VALUES`); `equations_by_name`: in order. A fraction
     `share` of the dry contact must be between 0 and 1, and 0 at δ = 0.
     """
     parameter_values = {
         symbol: np.float64(find_default_value(parameter_table, symbol))
-        for symbol in _find_parameters(steps, parameter_table)
+        for symbol in _find_parameters(equations_by_name, parameter_table)
     }
     arguments, function_by_name = [*parameter_values, *variables], {}
-    for name, step in steps.items():
+    for name, step in equations_by_name.items():
         function_by_name[name] = sp.lambdify(
             arguments, step, "numpy"
         )  # contains symbols of known names only, as `build` has checked
@@ -423,10 +426,10 @@ def check_sampled_values(
                 )
 
 
-def _find_parameters(steps: Mapping[str, sp.Expr], parameter_table: ParameterTable) -> set[sp.Symbol]:
+def _find_parameters(equations_by_name: Mapping[str, sp.Expr], parameter_table: ParameterTable) -> set[sp.Symbol]:
     """Return the parameters, given and derived ones, that the equations of a law read."""
     members = set(parameter_table.list_symbols())
-    return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
+    return {symbol for step in equations_by_name.values() for symbol in step.free_symbols if symbol in members}
 
 
 def find_default_value(parameter_table: ParameterTable, symbol: sp.Symbol) -> float:

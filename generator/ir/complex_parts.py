@@ -164,7 +164,10 @@ class _ComplexConverter:
         return None
 
     def _find_part_symbols(self, symbol: sp.Symbol) -> Parts | None:
-        """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real."""
+        """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real.
+
+        They are two elements of the array for a stored value, and (x, x with the suffix IMAGINARY) for a local x.
+        """
         name = symbol.name
         if places := self._find_part_places(find_value_key(symbol)):
             return PlaceSymbol(places[0]), PlaceSymbol(places[1])

@@ -298,10 +298,10 @@ class _SeriesBuilder(Rules):
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
             if not self.is_constant_in_time(entry):
-                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant_in_time(a)))
-                factor = self.define_value(moving)
+                time_factor = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant_in_time(a)))
+                factor = self.define_value(time_factor)
                 product = make_order_zero_symbol(x) * factor + self.add_convolution(Factor(factor.name), Factor(x.name))
-                terms.append(self.express_at_order_zero(entry / moving) * product)
+                terms.append(self.express_at_order_zero(entry / time_factor) * product)
         return sp.Add(*terms)
 
     def _expand_angle_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:

@@ -143,7 +143,7 @@ def _append_clearance_call(builder: KernelBuilder, index: int, clearance: Cleara
         builder.append_local(f"edot_{name}_{axis}", value)
         for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
-    arguments = (clearance.first.omega, clearance.second.omega, *clearance.further_arguments)
+    arguments = (clearance.first.omega, clearance.second.omega, *clearance.surface_arguments)
     builder.append_line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *make_contact_arguments(index)), (out,)))
     F = [builder.append_local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
     moments = [

@@ -198,7 +198,7 @@ def find_time_terms(dynamics: Kernel, motion_may_stop: bool) -> TimeTerms:
     if motion_may_stop:
         collector = _collect_terms(dynamics, True)
         terms = [*terms, *(term for term in collector.terms if term not in terms)][:MAX_TIME_TERMS]
-    return TimeTerms(_make_terms_kernel(dynamics, collector, terms) if terms else None, pulses)
+    return TimeTerms(_make_time_terms_kernel(dynamics, collector, terms) if terms else None, pulses)
 
 
 def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
@@ -214,8 +214,11 @@ def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
     return collector
 
 
-def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[sp.Expr]) -> Kernel:
-    """Return the kernel that evaluates the collected terms at a time and writes them to `out`."""
+def _make_time_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[sp.Expr]) -> Kernel:
+    """Return the kernel (arguments t, p, rhs) that evaluates the collected terms of time alone into `out`.
+
+    `dynamics` supplies the other attributes of the kernel.
+    """
     stores = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (
         Section("parameters and time", tuple(collector.list_needed_definitions(terms))),

@@ -51,16 +51,18 @@ def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[s
     at `_WIDTH` characters.
     """
     name_of_symbol = {
-        **{s: strip_identifier(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols},
+        **{s: strip_identifier(s) for e in law.equations_by_name.values() for s in sp.sympify(e).free_symbols},
         **names,
     }
     variables = {symbol.name for symbol in law.variables}
     symbol_map = {
-        s: sp.Symbol(name, real=True) for s, name in name_of_symbol.items() if s.name not in {*variables, *law.steps}
+        s: sp.Symbol(name, real=True)
+        for s, name in name_of_symbol.items()
+        if s.name not in {*variables, *law.equations_by_name}
     }
     printer = _Plain({"full_prec": False, "sympy_integers": False})
     lines: list[str] = []
-    for name, step in law.steps.items():
+    for name, step in law.equations_by_name.items():
         text = printer.doprint(sp.sympify(step).xreplace(symbol_map)).replace("**", "^")
         lines += textwrap.wrap(f"{name} = {text}", _WIDTH, subsequent_indent="    ", break_long_words=False)
     return [*lines, *_describe_variables(law)]

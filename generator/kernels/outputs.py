@@ -85,7 +85,7 @@ def _compute_reaction(
     point = first if kind.reaction_at == "first" else second
     sign, bodies = 1, [second.body]
     if second.body is None:
-        other_bodies = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
+        other_bodies = [joint.options[name] for name in kind.third_bodies]  # a gear's carrier
         sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in other_bodies)]
     wrench = [ZERO, ZERO, ZERO]
     for body in bodies:

@@ -89,7 +89,7 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
     names = {symbol: fields[info.place] for symbol, info in model.symbols.info.items() if info.place in fields}
     builder = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
     builder.begin_section("")
-    for name, equation in equations.steps.items():
+    for name, equation in equations.equations_by_name.items():
         value = hoist_reciprocals(model.parameter_table, sp.sympify(equation))
         if name in results:
             builder.append_store(Result(f"{name}_out"), value)
@@ -163,17 +163,17 @@ class JointFunctions:
     switch_indices: range = range(0)  # numbers of its switches
 
     @property
-    def further_variables(self) -> tuple[str, ...]:
+    def normal_law_extra_variables(self) -> tuple[str, ...]:
         """Return the names of the variables that the normal law reads in addition to δ and δ̇/δ̇⁻."""
-        return self.clearance.normal.further_variables if self.clearance.normal else ()
+        return self.clearance.normal.variables_outside_role if self.clearance.normal else ()
 
     @property
-    def further_places(self) -> tuple[Place, ...]:
-        """Return the storage locations from which the normal law's further variables are read at a joint.
+    def normal_law_argument_places(self) -> tuple[Place, ...]:
+        """Return the storage locations from which the normal law's arguments other than δ and δ̇/δ̇⁻ are read.
 
         They are locals of the same names; for rigid surfaces the contact force in the contact state is the only one.
         """
-        return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further_variables))
+        return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.normal_law_extra_variables))
 
     @property
     def has_transition(self) -> bool:

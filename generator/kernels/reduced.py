@@ -39,7 +39,7 @@ def has_singular_fallback(system: TreeSystem) -> bool:
 
 def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     """Return the kernels that convert tree coordinates to absolute ones and back."""
-    return [_make_expand_kernel(system), *_make_reduce_kernels(model, system)]
+    return [_make_forward_kinematics_kernel(system), *_make_reduce_kernels(model, system)]
 
 
 def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenLoopKernels | None]:
@@ -77,8 +77,8 @@ def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Map
     builder.append_line(SolveDependentRows())
 
 
-def _make_expand_kernel(system: TreeSystem) -> Kernel:
-    """Return the kernel of the absolute coordinates and velocities of all bodies at a state of the tree.
+def _make_forward_kinematics_kernel(system: TreeSystem) -> Kernel:
+    """Return the kernel `expand`: forward kinematics of all bodies in absolute coordinates at a state of the tree.
 
     They are written to `all_q` and `all_v`.
     """

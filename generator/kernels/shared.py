@@ -105,7 +105,7 @@ def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str
     info = model.symbols.info
     used_names = {
         *(name for name, _ in named_symbols),
-        *(name for law in laws for name in (*law.law.variables, *law.steps)),
+        *(name for law in laws for name in (*law.law.variables, *law.equations_by_name)),
     }
     for name, symbol in _list_file_parameters(model, laws):
         named_symbols.append((f"{name}_file_parameters" if name in used_names else name, symbol))

@@ -187,7 +187,7 @@ class OperationEstimate:
         ]
         for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
             if name not in satisfied_rows:
-                indices = {index_of[index] for index in self._find_moving_coordinates(paths, bodies)}
+                indices = {index_of[index] for index in self._find_relative_coordinates(paths, bodies)}
                 cost += sum(1 if index in free_indices else _ENTRY_COST for index in indices)
                 neighbours.append(indices)
                 for index in indices:
@@ -235,7 +235,7 @@ class OperationEstimate:
 
         def count_coordinates(joint: Joint) -> int:
             """Return the number of coordinates in the closure of a pair."""
-            return len(self._find_moving_coordinates(paths, [joint.first.body, joint.second.body]))
+            return len(self._find_relative_coordinates(paths, [joint.first.body, joint.second.body]))
 
         tree_joints = [tree_edge.joint for tree_edge in tree_edges if tree_edge.joint]
         return [
@@ -244,8 +244,8 @@ class OperationEstimate:
             for joint in shared_point.find_connecting_pairs(tree_joints, count_coordinates)
         ]
 
-    def _find_moving_coordinates(self, paths: Mapping[str, list[TreeEdge]], bodies: Sequence[str]) -> set[str]:
-        """Return the names of the coordinates in an equation between bodies.
+    def _find_relative_coordinates(self, paths: Mapping[str, list[TreeEdge]], bodies: Sequence[str]) -> set[str]:
+        """Return the names of the tree coordinates on which the relative pose of the bodies of an equation depends.
 
         `paths`: the tree edges from the root to each body. `bodies`: one body or two; a body without a path is the
         ground. For two bodies the coordinates of their common path do not count, except those of its last body.

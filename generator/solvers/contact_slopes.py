@@ -70,13 +70,13 @@ class _DerivativeBuilder:
         """
         self.model, self.clearance, self.part = model, clearance, part
         rate_names = "de_n, across" if clearance.contour else "deltadot, de_t"
-        further_names = ", depth and slope of the contour" * bool(clearance.contour)
+        contour_names = ", depth and slope of the contour" * bool(clearance.contour)
         self.builder = KernelBuilder(
             model.symbols,
             f"{part}_slopes_{clearance.label}_",
             [
                 f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {rate_names}, omega_i,",
-                f"omega_j{further_names} (forward differentiation of the same steps).",
+                f"omega_j{contour_names} (forward differentiation of the same steps).",
                 *["Then the rates of internal states, and derivatives by these states."] * bool(model.law_states),
             ],
         )
@@ -103,7 +103,7 @@ class _DerivativeBuilder:
         """
         law_tangents = self.tangents.make_tangents_for_variables(dict(zip(equations.variables, arguments, strict=True)))
         results = {}
-        for name, equation in equations.steps.items():
+        for name, equation in equations.equations_by_name.items():
             symbol, value = (
                 sp.Symbol(name, real=True),
                 hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),
@@ -183,10 +183,10 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
     for step in contact.make_lever_arm_equations(clearance):
         derivative_builder.append_assignment(replace_stored_speed(step))
     derivative_builder.begin_section("contact")
-    further_variables = [
-        _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further_variables
+    extra_variables = [
+        _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.variables_outside_role
     ]  # inputs as well
-    F_n = derivative_builder.append_law(normal, (contact.depth, contact.ratio, *further_variables))["F_n"]
+    F_n = derivative_builder.append_law(normal, (contact.depth, contact.ratio, *extra_variables))["F_n"]
     tangential = contact.make_part_symbol(contact.F_along_t, "dry")
     for step in contact.make_contour_normal_force(clearance):
         derivative_builder.append_assignment(step)

@@ -138,7 +138,7 @@ class Linearization:
             for axis, component in zip("xy", clearance.eccentricity_rate, strict=True)
         ]
         inputs = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
-        inputs += clearance.further_arguments
+        inputs += clearance.surface_arguments
         slopes = self.symbols.make_unique_name(f"change_{name}")
         builder.append_line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
         builder.append_line(
@@ -154,10 +154,10 @@ class Linearization:
             else []
         )
         input_tangents = [self.tangents.compute_gradient(component) for component in (*inputs, *states)]
-        further_names = ("n_x", "n_y") if clearance.wall else ("theta_i",)
+        surface_names = ("n_x", "n_y") if clearance.wall else ("theta_i",)
         derivative_names = (
             *_INPUT_NAMES,
-            *further_names[: len(clearance.further_arguments)],
+            *surface_names[: len(clearance.surface_arguments)],
             *(state.name for state in states),
         )
         values = []

@@ -229,7 +229,8 @@ MAX_ROUNDS = 1000
 def read_wear(reader: Reader, root: Map) -> WearRounds | None:
     """Return `wear:`, the rounds of wear before the measured runs; None if there are none.
 
-    None also if one of joints, rounds and k is missing or wrong. Errors are collected.
+    Keys: joints, rounds, k; optional hardness, scale and law (default WEAR_LAWS[0]). None also if a key is missing or
+    wrong. Errors are collected.
     """
     if "wear" not in root:
         return None

@@ -140,7 +140,11 @@ def _make_about_schema() -> Json:
 
 
 def _make_claims_schema() -> Json:
-    """Return the schema of `claims`: numbers, and trends with one statement, several or none."""
+    """Return the schema of `claims`: an object with the keys `source`, `numbers` and `trends`.
+
+    `numbers` and `trends` map labels to a number or a trend. A trend has one statement, a list of them under `all`, or
+    the reason `not_computed`.
+    """
     coordinate_values, texts = (
         _make_map_schema(_NUMBER),
         {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
@@ -165,11 +169,11 @@ def _make_claims_schema() -> Json:
         "counts": counts,
         "part": _TEXT,
     }
-    further_properties = {
+    trend_properties = {
         "all": {"type": "array", "items": _make_object_schema(statement_properties), "minItems": 1},
         "not_computed": _TEXT,
     }
-    trend = _make_object_schema(descriptive | statement_properties | further_properties)
+    trend = _make_object_schema(descriptive | statement_properties | trend_properties)
     source = {"type": "string", "maxLength": MAX_TEXT_LENGTH}
     return _make_object_schema(
         {"source": source, "numbers": _make_map_schema(number, LABEL), "trends": _make_map_schema(trend, LABEL)}

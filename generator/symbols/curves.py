@@ -28,9 +28,9 @@ class CurveOf(sp.Function):
         return int(self.args[1])
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative by `s`: the next derivative of the curve times that of its argument.
+        """Return the derivative by `s` (chain rule): the derivative of order + 1 at the argument x, times dx/ds.
 
-        The derivative of the third one is 0, since it is piecewise constant. Called by SymPy.
+        The result is 0 for order 3: third derivatives of a curve of cubic pieces are constant. Called by SymPy.
         """
         name, order, x = self.args
         rate = differentiate(x, s)

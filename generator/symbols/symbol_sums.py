@@ -51,7 +51,7 @@ def _combine(start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]], is_subt
     for a, b in pairs if is_plain else ():
         if a is _ZERO or b is _ZERO:
             continue
-        if (product := _multiply(a, b, is_subtracted)) is None:
+        if (product := _multiply_monomials(a, b, is_subtracted)) is None:
             is_plain = False
             break
         monomials.append(product)
@@ -96,8 +96,11 @@ def _find_key(expression: sp.Expr) -> _SymbolKey | None:
     return (rank, expression.name) if rank is not None and expression.assumptions0 == _ASSUMPTIONS else None
 
 
-def _multiply(a: sp.Expr, b: sp.Expr, is_negative: bool) -> _Monomial | None:
-    """Return ± a b, negative if `is_negative`; None if it is not a product of different symbols."""
+def _multiply_monomials(a: sp.Expr, b: sp.Expr, is_negative: bool) -> _Monomial | None:
+    """Return ± a b as (is_negative, keys, symbols), negated if `is_negative`.
+
+    None unless it is ± a product of one or more different symbols, without a number other than ±1.
+    """
     first, second = _split_product(a), _split_product(b)
     if first is None or second is None:
         return None

@@ -52,7 +52,9 @@ def find_mobility(
 ) -> Mobility:
     """Return the mobility of a linkage assembled at q (n,), from the largest rank of Φ_q at q and near it.
 
-    equation_indices: indices of the equations that count, None for all. t: time of the drives, s.
+    It contains the numbers of coordinates, equations and degrees of freedom, coordinates that describe the motion, and
+    unconnected bodies. `aligned` is by how much the rank at q itself is lower (links in line). equation_indices: those
+    of the equations that count, None for all. t: time of the drives, s. Raises ValueError if no Jacobian is finite.
     """
     row_indices = list(range(len(linkage.source.start_rows))) if equation_indices is None else list(equation_indices)
     with np.errstate(all="ignore"):

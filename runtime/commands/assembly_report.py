@@ -19,7 +19,7 @@ from gudgeon.assembly.start import compute_start_velocities
 from gudgeon.commands.common import apply_settings, check_addresses
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
-from gudgeon.model.seams import iterate_seam_notes
+from gudgeon.model.period_jumps import iterate_period_jump_warnings
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism import Mechanism
@@ -181,7 +181,7 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
         return
     if (size_remark := _format_size_remark(mechanism, first)) is not None:
         yield "size", size_remark
-    yield from (("curve", message) for message in iterate_seam_notes(first.linkage.source, first.linkage.p))
+    yield from (("curve", message) for message in iterate_period_jump_warnings(first.linkage.source, first.linkage.p))
     journal_messages = (
         message
         for scene in findings.scenes.values()

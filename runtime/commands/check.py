@@ -171,7 +171,7 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
     }
 
 
-def _yield_method_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+def _yield_derivation_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
     """Yield the (label, text) lines below the reduction log: methods, events, notes, time of each stage.
 
     `seconds`: wall time by stage of the derivation.
@@ -251,7 +251,7 @@ def _print_scenes(
     console, title = make_plain_console(WIDTH), format_one_line(mechanism.title or mechanism.name)
     for scene_names in _group_columns(scenes, max(map(len, names))):
         console.print(_make_count_table(title, names, {scene: counts_by_scene[scene] for scene in scene_names}))
-    for part in yield_reduction_logs(scenes, lambda source: _yield_method_lines(source, seconds[source.scene])):
+    for part in yield_reduction_logs(scenes, lambda source: _yield_derivation_lines(source, seconds[source.scene])):
         console.print(part)
 
 

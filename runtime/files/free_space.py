@@ -1,4 +1,4 @@
-"""Check free memory and disk space before a computation starts that needs more.
+"""Check, before a computation starts, whether it has enough free memory and disk space.
 
 Linux grants memory that it lacks and later kills the process; a disk that fills up loses the results of a long run.
 Small requests are not checked.

@@ -230,7 +230,7 @@ def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None
     if runs.arrays["status"][i] == NOT_CLOSED:
         return
     over = bool(runs.arrays["phase"][i] == OVER)
-    if step_log and (over or runs.compiled.lib.gudgeon_run_full(run)):
+    if step_log and (over or runs.compiled.lib.gudgeon_run_has_full_lists(run)):
         step_log.observer = runs.observers[i]
         step_log.flush_rows(run)
     runs.fetch_contacts_and_events(i, run, over)

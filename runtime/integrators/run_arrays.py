@@ -91,7 +91,10 @@ class SingleRunArrays(dict[str, NDArray[Any]]):
         return dict, ({name: self[name] for name in self._layout.fields} | self,)
 
     def make_struct(self, ffi: Any) -> Any:
-        """Return C's struct Batch in the block, with pointers to all arrays; this object keeps it alive."""
+        """Write the pointers to all arrays into the first STRUCT_BYTES of the block; return them as C's struct Batch.
+
+        Nothing is allocated: keep this object as long as the struct is used.
+        """
         names, offsets = self._layout.pointers
         memory = make_pointer(ffi, self._block, "unsigned char *", True)
         words = self._block[:STRUCT_BYTES].view(np.uintp)

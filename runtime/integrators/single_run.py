@@ -106,10 +106,11 @@ class SingleRun(Runs):
         return self.build_trajectory(0)
 
     def _integrate_in_c(self) -> None:
-        """Integrate the run by the time loop in C. After Ctrl-C, the samples up to there remain.
+        """Integrate the run by the time loop in C, with the optimized library if it is ready.
 
-        The error of a failed run is recorded in `failures`; without any sample, its start becomes the first. Raises
-        KeyboardInterrupt if Ctrl-C came before the first sample.
+        Steps are recorded for observers, if there are any. After Ctrl-C, `interrupted` is set, `failures` stays empty,
+        and the samples up to there remain. The error of a failed run is recorded in `failures`; without any sample, its
+        start becomes the first. Raises KeyboardInterrupt if Ctrl-C came before the first sample.
         """
         compiled, x, run = self.compiled, self.arrays, self._integrator
         step_log = StepLog(compiled) if self.observers else None

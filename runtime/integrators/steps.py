@@ -126,7 +126,7 @@ class KinematicStepLog:
     def register_rows(self, motion_struct: Any, rows: int = N_ROWS_OF_BLOCK) -> None:
         """Make C record the states of the motion in the first `rows` rows from now on; with 0, end the recording."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, is_written=True)
-        lib.gudgeon_kinematic_record(motion_struct, where if rows else self.compiled.ffi.NULL, rows)
+        lib.gudgeon_kinematic_set_recording(motion_struct, where if rows else self.compiled.ffi.NULL, rows)
 
     def collect_steps(self, motion_struct: Any) -> None:
         """Copy the states that C has written since the last call, and clear C's list.

@@ -246,7 +246,7 @@ class StoredRuns:
         """Fetch, store and clear C's lists of ended contacts and of events of run i; with `is_over` all contacts."""
         if self.compiled.source.clearances:
             self.fetched.fetch_contacts(i, run, is_over)
-        if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
+        if self.compiled.source.events and self.compiled.lib.gudgeon_run_count_listed(run):
             self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.get_times(i)))
 
     def build_findings(self, i: int) -> tuple[Finding, ...]:

@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-SHA256 = "d0ea07d68d190d2cfeb42d881fae78decc43d89db0ae5f74c048f5fc02fec02b"  # SHA-256 of these declarations
+SHA256 = "30545eb1cec6c0975bdbed8119c64a9c438508720545fbb7e18e72862787f625"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
@@ -77,9 +77,9 @@ ffi = FFI(
         0,
         b"\x00\x01?#gudgeon_kinematic_progress",
         0,
-        b"\x00\x01\x1e#gudgeon_kinematic_record",
-        0,
         b"\x00\x01\x1b#gudgeon_kinematic_restart",
+        0,
+        b"\x00\x01\x1e#gudgeon_kinematic_set_recording",
         0,
         b"\x00\x00\xd7#gudgeon_kinematic_size",
         0,
@@ -117,13 +117,13 @@ ffi = FFI(
         0,
         b"\x00\x00\x18#gudgeon_rhs",
         0,
+        b"\x00\x00\xbf#gudgeon_run_count_listed",
+        0,
         b"\x00\x00\x88#gudgeon_run_events",
         0,
-        b"\x00\x00\xbf#gudgeon_run_full",
+        b"\x00\x00\xbf#gudgeon_run_has_full_lists",
         0,
         b"\x00\x00\x91#gudgeon_run_impacts",
-        0,
-        b"\x00\x00\xbf#gudgeon_run_listed",
         0,
         b"\x00\x01\x1e#gudgeon_run_record",
         0,

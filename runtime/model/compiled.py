@@ -343,7 +343,9 @@ class CompiledModel:
         poll_cancellation: Callable[[], object] = lambda: None,
         field_names: Collection[str] = FIELD_NAMES,
     ) -> Evaluation:
-        """Return all quantities at N samples: t (N,), q and v (N, n), discrete states (N, n_memory).
+        """Return all quantities of a run (accelerations, multipliers, joint forces and others) at N samples.
+
+        t: (N,). q, v: (N, n). discrete_states: (N, n_memory). p: one set of parameter values, (n_p,), for all samples.
 
         `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `field_names`: the
         requested fields of Evaluation. Raises SingularError for a sample that has no accelerations.

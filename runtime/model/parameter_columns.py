@@ -56,7 +56,7 @@ class ParameterColumns:
         self.size_slots = find_length_indices(source)
 
     def _make_pointers(self) -> list[tuple[tuple[Any, Any, Any], ...]]:
-        """Return the arguments of gudgeon_prepare for each row: those of the run and, if it differs, of the motion."""
+        """Return the pointers passed to gudgeon_prepare for each row: of `p` and, if it differs, of `p_motion`."""
         pointer, n_sets = self.compiled.pointer, 1 if self.p_motion is self.p else 2
         inputs = [(pointer(self._given[i]), pointer(self._is_given[i], "unsigned char *")) for i in range(n_sets)]
         arrays = (self.p, self.p_motion)[:n_sets]

@@ -93,7 +93,7 @@ def explain_address(source: KernelSource, address: str) -> tuple[str, str]:
     if expression is None and address.removeprefix("outputs.") not in source.outputs:
         explanations = (
             explain_named_expression,
-            _explain_missing_eccentricity,
+            _explain_missing_start_position,
             _explain_single_material,
             _explain_motion_result,
             explain_law_choice,
@@ -180,8 +180,11 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
     return "; ".join(sentences)
 
 
-def _explain_missing_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
-    """Return (message, hint) for an eccentricity at the start that the file does not give; ("", "") for others."""
+def _explain_missing_start_position(source: KernelSource, address: str) -> tuple[str, str]:
+    """Return (message, hint) for a start position (start.play.A.e.x, start.play.A.offset) that the file does not give.
+
+    ("", "") for other addresses, and if the file's start gives any value of the joint.
+    """
     section, subsection, joint, *component = [*address.split("."), "", "", ""][:4]
     is_slider_by_joint = {clearance.joint: clearance.is_corner for clearance in source.clearances}
     has_start = any(parameter.address.startswith(f"start.play.{joint}.") for parameter in source.slots)
@@ -255,8 +258,7 @@ def insert_space_before_unit(text: str) -> str:
 def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
     """Return (p, given, is_given), checked: see CompiledModel.prepare.
 
-    parameters: as `read_given_parameters` accepts them. Raises BadValueError, UnknownNameError. None: the values of the
-    file.
+    parameters: None for the file's values; see `read_given_parameters`. Raises BadValueError, UnknownNameError.
     """
     given_values, is_given = read_given_parameters(compiled.source, parameters)
     return prepare_run_values(compiled, given_values, is_given)[0], given_values, is_given

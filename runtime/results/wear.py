@@ -3,7 +3,7 @@
 J. F. Archard, J. Appl. Phys. 24 (1953) 981: V = k F_n s/H, with the normal force F_n, the sliding distance s, the
 hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume proportional to the work of friction,
 here with the factor k/H. Both assume that wear changes no geometry: clearance and shape remain those of the file.
-`Worn` is the result of rounds of wear that do change the contours of bearings (simulation/wear_loop.py).
+`WearRoundsResult` is the result of rounds of wear that do change the contours of bearings (simulation/wear_loop.py).
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ class Wear:
 
 
 @dataclass(frozen=True, eq=False)
-class WornJoint:
+class JointWearResult:
     """Wear of one joint over r rounds of n runs; NaN from the round on in which a run failed."""
 
     contour: Array  # (r + 1, n, slots) m: depths of the contour's points before each round and after the last one
@@ -209,10 +209,10 @@ class WornJoint:
 
 
 @dataclass(frozen=True, eq=False)
-class Worn:
+class WearRoundsResult:
     """Result of `gudgeon.wear_loop` by joint, with the wear law and its factors."""
 
-    joints: Mapping[str, WornJoint]
+    joints: Mapping[str, JointWearResult]
     law: str
     rate: float  # k/H, 1/Pa
     scale: float  # number of runs that each run represents
@@ -222,7 +222,7 @@ class Worn:
     def __repr__(self) -> str:
         """Return joints, law, and the numbers of rounds and runs in one line."""
         rounds, runs = next(iter(self.joints.values())).work.shape
-        return f"<Worn {', '.join(self.joints)} by {self.law}: {rounds} rounds of {runs} runs>"
+        return f"<WearRoundsResult {', '.join(self.joints)} by {self.law}: {rounds} rounds of {runs} runs>"
 
     def to_xarray(self) -> xarray.Dataset:
         """Return a Dataset of contours over round, joint, run and slot, of depths over the cells, and of volumes, works

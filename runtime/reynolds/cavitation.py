@@ -64,17 +64,17 @@ def solve_pressure(
     """
     squeeze_flow = equation.compute_squeeze_flow(motion.w_n, motion.w_t)
     if cavitation == "half_sommerfeld":
-        p = _solve_subsystem(equation.matrix, squeeze_flow, free_nodes)
-        return Pressure(p, np.ones_like(p), equation.matrix @ p - squeeze_flow)
+        p = _solve_subsystem(equation.pressure_flow_matrix, squeeze_flow, free_nodes)
+        return Pressure(p, np.ones_like(p), equation.pressure_flow_matrix @ p - squeeze_flow)
     has_pressure = (squeeze_flow > 0.0) if initial_unknowns is None else (initial_unknowns > 0.0)
     if cavitation == "elrod_adams" and initial_unknowns is not None:
         return _solve_elrod_adams(equation, motion, free_nodes, has_pressure & free_nodes)
     p, has_pressure = _solve_complementarity_problem(
-        equation.matrix, squeeze_flow, free_nodes, has_pressure & free_nodes
+        equation.pressure_flow_matrix, squeeze_flow, free_nodes, has_pressure & free_nodes
     )
     if cavitation == "elrod_adams":
         return _solve_elrod_adams(equation, motion, free_nodes, has_pressure)
-    return Pressure(p, np.ones_like(p), equation.matrix @ p - squeeze_flow)
+    return Pressure(p, np.ones_like(p), equation.pressure_flow_matrix @ p - squeeze_flow)
 
 
 def _solve_subsystem(matrix: sparse.csr_matrix, right_side: Array, selected_nodes: Flags) -> Array:
@@ -133,7 +133,7 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, fu
     from no full nodes. Raises BadValueError if the gap closes faster than oil is convected, GudgeonError if the active
     set does not converge.
     """
-    matrix, convection = equation.matrix, equation.build_convection_matrix(motion.half_speed, motion.w_n)
+    matrix, convection = equation.pressure_flow_matrix, equation.build_convection_matrix(motion.half_speed, motion.w_n)
     if (convection.diagonal() <= 0.0).any():
         raise BadValueError(
             "elrod_adams: the gap closes faster than oil is convected",

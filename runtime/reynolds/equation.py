@@ -42,9 +42,10 @@ class Equation:
         return len(self.grid.height)
 
     @cached_property
-    def matrix(self) -> sparse.csr_matrix:
-        """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by the unknowns.
+    def pressure_flow_matrix(self) -> sparse.csr_matrix:
+        """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by pressures (Poiseuille flow).
 
+        The flow by convection (Couette flow) is that of `build_convection_matrix`.
         It is an M-matrix; each column sums to 0, or to the outflow over the end.
         """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)

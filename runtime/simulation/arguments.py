@@ -81,7 +81,8 @@ def integrate_run(problem: Problem) -> Trajectory:
 def parse_seconds(name: str, value: float | str) -> float:
     """Parse a time argument and return it in s: a number, or a text such as '5 ms' or '1e-3'. `name` is for messages.
 
-    Raises InputError for anything else.
+    The time may be negative or zero: the caller checks its range. Raises InputError for NaN, infinite and subnormal
+    numbers, another dimension, and values of other types.
     """
     if type(value) is float and sys.float_info.min <= abs(value) < math.inf:
         return value

@@ -30,7 +30,7 @@ from gudgeon.model.deferred_fields import find_deferred_function, make_with_defe
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.file_expressions import find_unbounded_drive
 from gudgeon.model.left_limit import find_evaluation_times
-from gudgeon.model.seams import iterate_seam_notes
+from gudgeon.model.period_jumps import iterate_period_jump_warnings
 from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, get_run_date
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
@@ -132,7 +132,7 @@ def _build_notes(
             " there"
         )
     notes += _yield_unbounded_sample_note(compiled, problem, trajectory)
-    notes += iterate_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
+    notes += iterate_period_jump_warnings(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += yield_range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
         notes += describe_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)

@@ -13,7 +13,7 @@ import numpy as np
 from gudgeon.assembly.rank import list_redundant_equations
 from gudgeon.integrators.batch import Runs
 from gudgeon.model.left_limit import find_evaluation_times
-from gudgeon.model.seams import list_periodic_drives
+from gudgeon.model.period_jumps import list_periodic_drives
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.simulation.audit import (
     LIMITS,

@@ -342,17 +342,17 @@ class Tangent:
                 panel.halves = panel.split()
             halves = [half for panel in unconverged for half in panel.halves]
             self._set_propagators(halves)
-            further: list[Panel] = []
+            next_unconverged: list[Panel] = []
             for panel in unconverged:
                 first, second = panel.halves
                 assert first.P is not None and second.P is not None and panel.P is not None
                 change = self._compare_propagators(second.P @ first.P, panel.P)
                 rate_error = max(first.rate_error, second.rate_error)
                 if (change > PROPAGATOR_TOL or rate_error > MAX_RATE_ERROR) and first.depth < MAX_DEPTH:
-                    further += panel.halves
+                    next_unconverged += panel.halves
                 else:
                     first.halving_change = max(change, rate_error if rate_error > MAX_RATE_ERROR else 0.0)
-            unconverged = further
+            unconverged = next_unconverged
         return panels
 
     def _set_propagators(self, panels: list[Panel]) -> None:
@@ -417,7 +417,7 @@ class Tangent:
         closed, free = state_at_t[1].copy(), state_at_t[1].copy()
         closed[joint], free[joint] = approach_speed, np.nan
         penetration, rate = flow.compute_penetration(joint, t, y, q_dep)
-        h = DIFFERENCE_STEP / self.measure.compute_norm(self._expand_difference(t, y, q_dep, d))
+        h = DIFFERENCE_STEP / self.measure.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
         ends = [np.array(flow.compute_penetration(joint, t, y + s * h * d, q_dep)) for s in (1.0, -1.0)]
         penetration_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
         time_shift = -penetration_slope / rate
@@ -446,7 +446,7 @@ class Tangent:
         differences in time.
         """
         flow, n = self.flow, len(y) // 2
-        difference = self._expand_difference(t, y, q_dep, f)
+        difference = self._map_tangent_to_bodies(t, y, q_dep, f)
         difference[self.measure.n :] = 0.0
         h = DIFFERENCE_STEP / max(self.measure.compute_norm(difference), 1.0 / self.measure.crossing_time)
         rates = [
@@ -471,18 +471,19 @@ class Tangent:
         if self.transverse:
             f = self.flow.compute_rates(t, y, q_dep, run.memory[-1])
             d = d - f * self.measure.project_on_flow(
-                self._expand_difference(t, y, q_dep, d), self._expand_difference(t, y, q_dep, f)
+                self._map_tangent_to_bodies(t, y, q_dep, d), self._map_tangent_to_bodies(t, y, q_dep, f)
             )
-        h = INITIAL_DISTANCE / self.measure.compute_norm(self._expand_difference(t, y, q_dep, d))
+        h = INITIAL_DISTANCE / self.measure.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
         ends = [
             self.flow.reduce_state(t, self.measure.project_state(t, self.flow.expand_state(t, y + s * h * d, q_dep)))[0]
             for s in (1.0, -1.0)
         ]
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
 
-    def _expand_difference(self, t: float, y: Array, q_dep: Array, d: Array) -> Array:
-        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state; zeros for
-        d = 0.
+    def _map_tangent_to_bodies(self, t: float, y: Array, q_dep: Array, d: Array) -> Array:
+        """Map a tangent vector d (2m,) of the integrated state to that (2n,) of (q, q̇) of all bodies; 0 for d = 0.
+
+        It is a central difference quotient whose step changes the integrated state by at most 1e-6.
         """
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:
@@ -492,4 +493,4 @@ class Tangent:
     def _compute_tangent_norm(self, state: State, z: Array) -> float:
         """Return the norm of the tangent vector z at a state: that of (q, q̇) of all bodies, without δ̇⁻ and t."""
         y, q_dep = self.flow.reduce_state(state.t, flatten_state(state))
-        return self.measure.compute_norm(self._expand_difference(state.t, y, q_dep, z[: 2 * self.flow.m]))
+        return self.measure.compute_norm(self._map_tangent_to_bodies(state.t, y, q_dep, z[: 2 * self.flow.m]))

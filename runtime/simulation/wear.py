@@ -154,7 +154,8 @@ def check_joint_can_wear(source: KernelSource, joint: Any) -> None:
 def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:
     """Return the wear rate k/H (1/Pa) from the arguments k and hardness of `wear`; without a hardness, k is k/H itself.
 
-    `k_name` and `hardness_name` of the arguments are for messages. Raises InputError for values that are not positive.
+    Both are numbers in SI or texts with a unit ("2 GPa"); k is dimensionless with a hardness, else in 1/Pa. `k_name`
+    and `hardness_name` of the arguments are for messages. Raises InputError for values that are not positive.
     """
 
     def parse_positive(value: Any, what: str, exponents: tuple[int, int, int]) -> float:

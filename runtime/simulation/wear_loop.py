@@ -32,7 +32,7 @@ from gudgeon.language.argument_checks import (
 from gudgeon.language.text_output import format_one_line
 from gudgeon.model.contours import find_contour, read_contours
 from gudgeon.model.parameter_sets import ParameterSets, read_given_parameters_of_runs, read_parameter_rows
-from gudgeon.results.wear import LAWS, POINTS, SlidingLoads, SlidingRequest, Worn, WornJoint
+from gudgeon.results.wear import LAWS, POINTS, JointWearResult, SlidingLoads, SlidingRequest, WearRoundsResult
 from gudgeon.simulation.wear import CONTACT_MODELS, MAX_POINTS, check_joint_can_wear, parse_wear_rate
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def wear_loop(
     contour: Mapping[str, ArrayLike] | None = None,
     progress: Progress | None = None,
     **options: Any,
-) -> Worn:
+) -> WearRoundsResult:
     """Alternate between runs of a scene and wear of its bearings with a `contour`, and return wear and contours.
 
     `rounds`: number of runs, each from the scene's start, with the contours that the runs before it have worn.
@@ -112,7 +112,7 @@ def wear_loop(
         raise_bad_value("law", law, " or ".join(LAWS))
     if check_text(contact, "contact") not in CONTACT_MODELS:
         raise_bad_value("contact", contact, " or ".join(CONTACT_MODELS))
-    wearing = WearModel(
+    wear_model = WearModel(
         names,
         parse_wear_rate(k, hardness, "k", "hardness"),
         law,
@@ -122,7 +122,7 @@ def wear_loop(
         check_integer(passes, "passes", 0, MAX_PASSES),
         -np.inf if since is None else check_number(since, "since"),
     )
-    loop = WearLoop(simulation, wearing, read_contours(simulation.source, contour, allows_runs=True))
+    loop = WearLoop(simulation, wear_model, read_contours(simulation.source, contour, allows_runs=True))
     check_callable(progress, "progress")
     count = check_integer(rounds, "rounds", 1, MAX_ROUNDS)
     for k_round in range(count):
@@ -134,14 +134,14 @@ def wear_loop(
 class WearLoop:
     """Repeat the same runs, each round with the contours that the last one left."""
 
-    def __init__(self, simulation: Simulation, wearing: WearModel, contour: Mapping[str, Array]) -> None:
-        self.simulation, self.wearing, self.given = simulation, wearing, dict(contour)
+    def __init__(self, simulation: Simulation, wear_model: WearModel, contour: Mapping[str, Array]) -> None:
+        self.simulation, self.wear_model, self.given = simulation, wear_model, dict(contour)
         self.n_angles = {contour_info.joint: contour_info.count for contour_info in simulation.source.contours}
-        self.contours: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
-        self.depths: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
-        self.journals: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
-        self.works: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
-        self.peaks: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
+        self.contours: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
+        self.depths: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
+        self.journals: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
+        self.works: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
+        self.peaks: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
         self.sizes: dict[str, Array] = {}
         self.failures: dict[int, str] = {}
 
@@ -158,14 +158,14 @@ class WearLoop:
             t_end,
             **{"output": 1, "keep": [], **options},
             contour=self.given,
-            peaks=self.wearing.sliding_requests,
+            peaks=self.wear_model.sliding_requests,
         )
         if batch.interrupted:
             raise KeyboardInterrupt
         self.failures |= {
             failure.run: str(failure.error) for failure in batch.failures if failure.run not in self.failures
         }
-        for index, joint in enumerate(self.wearing.joints):
+        for index, joint in enumerate(self.wear_model.joints):
             self._append_round_results(batch, index, joint)
         return batch
 
@@ -177,14 +177,14 @@ class WearLoop:
         n, n_angles = len(batch), self.n_angles[joint]
         if not self.contours[joint]:
             self.contours[joint].append(np.array(np.broadcast_to(self.given[joint], (n, n_angles))))
-        depth, contour_depth = np.full((n, self.wearing.points), np.nan), np.full((n, n_angles), np.nan)
+        depth, contour_depth = np.full((n, self.wear_model.points), np.nan), np.full((n, n_angles), np.nan)
         work, journal = np.full(n, np.nan), np.full_like(depth, np.nan)
         sizes = self.sizes.setdefault(joint, np.full((3, n), np.nan))
         for i in (i for i in range(n) if i not in self.failures):
             loads = batch.rubbed[i][index]
-            depth[i], contour_depth[i] = self.wearing.compute_depths(loads, n_angles)
-            work[i] = (loads.load if self.wearing.law == LAWS[0] else loads.friction)[0].sum()
-            journal[i] = self.wearing.scale * loads.compute_depth(1, self.wearing.law, self.wearing.rate)
+            depth[i], contour_depth[i] = self.wear_model.compute_depths(loads, n_angles)
+            work[i] = (loads.load if self.wear_model.law == LAWS[0] else loads.friction)[0].sum()
+            journal[i] = self.wear_model.scale * loads.compute_depth(1, self.wear_model.law, self.wear_model.rate)
             sizes[:, i] = loads.radii[0], loads.length, loads.radii[1]
         joint_index = [clearance.name for clearance in batch.source.clearances].index(joint)
         self.depths[joint].append(depth)
@@ -200,16 +200,16 @@ class WearLoop:
         """
         compiled, source = self.simulation.compiled, self.simulation.source
         given, is_given = read_given_parameters_of_runs(source, read_parameter_rows(parameters)[0])
-        for joint in self.wearing.joints:
+        for joint in self.wear_model.joints:
             contour = find_contour(source, compiled.prepare_parameters_of_runs(given, is_given), joint)
             if contour is not None:
                 self.given.setdefault(joint, contour if len(contour) > 1 else contour[0])
 
-    def build_result(self) -> Worn:
-        """Return the results of all rounds so far as a Worn, with arrays over rounds and runs for each joint."""
-        source, wearing = self.simulation.source, self.wearing
+    def build_result(self) -> WearRoundsResult:
+        """Return the results of all rounds so far, with arrays over rounds and runs for each joint."""
+        source, wear_model = self.simulation.source, self.wear_model
         joints = {
-            joint: WornJoint(
+            joint: JointWearResult(
                 np.stack(self.contours[joint]),
                 np.stack(self.depths[joint]),
                 np.stack(self.works[joint]),
@@ -219,10 +219,10 @@ class WearLoop:
                 np.stack(self.journals[joint]),
                 self.sizes[joint][2],
             )
-            for joint in wearing.joints
+            for joint in wear_model.joints
         }
         title = f"{format_one_line(source.title)}: {source.scene}"
-        return Worn(joints, wearing.law, wearing.rate, wearing.scale, self.failures, title)
+        return WearRoundsResult(joints, wear_model.law, wear_model.rate, wear_model.scale, self.failures, title)
 
 
 def average_depths_over_arcs(depth: Array, n_angles: int) -> Array:

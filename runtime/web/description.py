@@ -186,7 +186,8 @@ def _collect_default_options(source: KernelSource) -> dict[str, Any]:
 def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> list[float] | None:
     """Return the default step of rk4 as [fraction of the run's duration, upper bound in s at the file's values].
 
-    For a scene that rk4 does not integrate in Python, the bound is `drift_step`; None without it.
+    drift_step: default step (s) with which the page integrates a scene that rk4 does not integrate in Python; the
+    fraction is then DRIFT_STEP_FRACTION. None without such a step.
     """
     if "rk4" not in compiled.source.methods:
         return None if drift_step is None else [DRIFT_STEP_FRACTION, drift_step]

@@ -243,7 +243,7 @@ class KinematicAnalysis {
      */
     computeMotion(first, last, capacity = MAX_RECORDED_STEPS) {
         const [t, q, v] = this.getRow(first), a = this.a + 8 * first * this.n, {lib, analysis} = this;
-        lib.gudgeon_kinematic_record(analysis, capacity && this.records, capacity);
+        lib.gudgeon_kinematic_set_recording(analysis, capacity && this.records, capacity);
         const status = lib.gudgeon_kinematic(analysis, last - first, t, this.p, q, v, a, this.maxima, this.maxima + 8,
             this.callCounts, this.callCounts + 4);
         const end = first + this.memory.viewLongs(this.callCounts, 2)[1], isFull = status === EVENTS_FULL;

@@ -122,7 +122,7 @@ class Reference:
     def _law(self, equations: LawEquations, state: Sequence[Any]) -> list[Any]:
         """The law's results at a state of its own variables."""
         known = dict(zip(equations.variables, (sp.Float(x, DIGITS + 5) for x in state), strict=True))
-        for name, step in equations.steps.items():
+        for name, step in equations.equations_by_name.items():
             value = self.model.symbols.expand_definitions(sp.sympify(step)).xreplace(known | self._numbers)
             known[sp.Symbol(name, real=True)] = sp.N(value, DIGITS + 5)
         results: tuple[str, ...] = ("F_n",) if equations.law.role == "normal" else ("F_t",)

@@ -13,7 +13,7 @@ from tests.fuzz.expressions import Writer
 NAMES = (
     "a_K",
     "k",
-    "rare",
+    "needs_scalar",
     "broadcast",
     "pick",
     "select_value",

@@ -23,7 +23,7 @@ def test_hundreds_of_files(files: int) -> None:
     assert tally.counts["runs"] > 0
 
 
-HEAD = "format: gudgeon/1\nname: fuzz\nparameters: {rare: 1.3, Lanes: 0.2 m, broadcast: 2, sine_0: 1}\n"
+HEAD = "format: gudgeon/1\nname: fuzz\nparameters: {needs_scalar: 1.3, Lanes: 0.2 m, broadcast: 2, sine_0: 1}\n"
 BAR = (
     HEAD
     + """bodies: {a: {length: 0.2 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}}
@@ -35,11 +35,11 @@ MASS = HEAD + "bodies: {s: {mass: 1 kg, inertia: 1e-3 kg*m^2}}\nground: {O: [0, 
 FAILED = {
     "a driven bar's event": BAR
     + """drives: {d: {angle: a, value: 2*pi*t}}
-events: {e: {zero: "rare + a.head.y * 2 1/m"}}
+events: {e: {zero: "needs_scalar + a.head.y * 2 1/m"}}
 """,
     "names of the C of lanes": BAR
     + """events:
-  e: {zero: cos(a.theta) + rare * broadcast * sin(sine_0 * t) + a.x / Lanes}
+  e: {zero: cos(a.theta) + needs_scalar * broadcast * sin(sine_0 * t) + a.x / Lanes}
 """,
     "a corner that only the event has": MASS
     + """joints: {G: {translational: [ground.O, s.origin], axis: [1, 0]}}

@@ -295,7 +295,7 @@ def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:
     model = derive_scene(text.encode(), "disc.yaml", "wall")
     law = model.clearances[0].normal
     assert law is not None and "speed" not in {symbol.name for symbol in model.parameter_table.list_symbols()}
-    assert law.steps["speed__"] == 2 * law.variables[2]
+    assert law.equations_by_name["speed__"] == 2 * law.variables[2]
 
 
 def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> None:

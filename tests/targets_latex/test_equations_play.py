@@ -236,7 +236,7 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     assert equations_of.law is law
     title = f"Joint A: {({'film': 'film', 'mixed': 'mixed lubrication'}).get(law.role, 'dry contact')}"
     lines = sections(written)
-    assert len(equations(lines[title])) >= sum(step != 0 for step in equations_of.steps.values())
+    assert len(equations(lines[title])) >= sum(step != 0 for step in equations_of.equations_by_name.values())
     numbers_of = {cells[2] for cells in rows(lines["Joint A: parameters"]) if len(cells) == 5}
     for number in law.parameters:
         message = not (left_out and may_lack(number))

@@ -116,7 +116,7 @@ class JointType:
         return "rad" in self.row_units
 
     @property
-    def further_bodies(self) -> tuple[str, ...]:
+    def third_bodies(self) -> tuple[str, ...]:
         """Return the fields that name a third body, such as a gear's carrier."""
         return tuple(body_field.name for body_field in self.fields if body_field.kind == BODY)
 

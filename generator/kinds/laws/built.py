@@ -31,7 +31,7 @@ _MAX_CHOICES = 64  # combinations of a law's options and numbers that are tried
 class Probe:
     """Contain a law in probe symbols: its equations and its derived constants, expressions by name."""
 
-    steps: Mapping[str, Any]
+    equations_by_name: Mapping[str, Any]
     derived: Mapping[str, Any]
 
 
@@ -73,20 +73,20 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
 
     try:
         with redirect_stdout(sys.stderr):
-            steps = law.build(replace(inputs, derive=derive))
+            equations_by_name = law.build(replace(inputs, derive=derive))
     except (LawError, KeyboardInterrupt):
         raise
     except BaseException as error:
         location = find_error_location(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
         hint = f"build gets {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
         raise _make_law_error(law, f"build raised {format_exception(error)}", hint, location) from error
-    results = _find_result_names(law, steps)
+    results = _find_result_names(law, equations_by_name)
     expressions, known_symbols = (
         {},
         constants | {symbol for x in inputs.variables.values() for symbol in _find_symbols(x)},
     )
     reserved_names = {*law.variables, *(field_of_law.name for field_of_law in law.parameters)}
-    for name, step in steps.items():
+    for name, step in equations_by_name.items():
         _check_name_not_reserved(law, name)
         if name in reserved_names:
             raise _make_law_error(
@@ -160,7 +160,7 @@ def compute_law_key(law: Law) -> str:
         except LawError as error:
             digest.update(str(error).encode())
             continue
-        for name, value in (*probed_law.derived.items(), *probed_law.steps.items()):
+        for name, value in (*probed_law.derived.items(), *probed_law.equations_by_name.items()):
             digest.update(f"{name} = {sp.srepr(value)}\n".encode())
     return digest.hexdigest()
 
@@ -184,13 +184,16 @@ def _iterate_option_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], t
             yield dict(zip(names, values, strict=True)), (*required_names, *given_names)
 
 
-def _find_result_names(law: Law, steps: Any) -> frozenset[str]:
-    """Return the names of the law's results. Raises LawError if `steps` is no mapping by name, or lacks a result."""
+def _find_result_names(law: Law, equations_by_name: Any) -> frozenset[str]:
+    """Return the names of a law's results.
+
+    Raises LawError if `equations_by_name` is not a mapping with texts as keys, or lacks a result.
+    """
     results = law.results
     hint = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
-    if not isinstance(steps, Mapping) or not all(isinstance(name, str) for name in steps):
-        raise _make_law_error(law, f"build returns {type(steps).__name__}, not forces by name", hint)
-    if missing_results := [name for name in results if name not in steps]:
+    if not isinstance(equations_by_name, Mapping) or not all(isinstance(name, str) for name in equations_by_name):
+        raise _make_law_error(law, f"build returns {type(equations_by_name).__name__}, not forces by name", hint)
+    if missing_results := [name for name in results if name not in equations_by_name]:
         raise _make_law_error(law, f"build returns no {', '.join(missing_results)}", hint)
     return frozenset(results)
 
@@ -325,6 +328,6 @@ def make_law_function(
     return compute_results
 
 
-def count_further_variables(law: Law) -> int:
-    """Return the number of further variables between those of the role and the internal states."""
-    return len(law.further)
+def count_variables_outside_role(law: Law) -> int:
+    """Return the number of variables outside the role, which lie between those of the role and internal states."""
+    return len(law.variables_outside_role)

@@ -18,16 +18,17 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 
 
-def build_load_fraction(inputs: LawInputs) -> dict[str, Any]:
+def build_christensen_fraction(inputs: LawInputs) -> dict[str, Any]:
     """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
 
-    It rises from 0 to 1 with the penetration δ > 0.
+    It is a polynomial of degree 7 in the overlap of the roughness, from −3 to +3 standard deviations, and rises from 0
+    to 1 with the penetration δ > 0.
     """
     import sympy as sp
 
-    gone, left = sp.symbols("gone left", real=True)
-    share = gone**4 * (gone**3 + left * (7 * gone**2 + left * (21 * gone + 35 * left)))
-    return {"gone": make_overlap_fraction(inputs, 3, -3), "left": 1 - gone, "share": share}
+    overlap, remainder = sp.symbols("overlap_fraction remainder", real=True)
+    share = overlap**4 * (overlap**3 + remainder * (7 * overlap**2 + remainder * (21 * overlap + 35 * remainder)))
+    return {"overlap_fraction": make_overlap_fraction(inputs, 3, -3), "remainder": 1 - overlap, "share": share}
 
 
 LAW = Law(
@@ -49,5 +50,5 @@ LAW = Law(
     "asperities, and the film has the clearance c + 3 sigma; the fraction b of the dry contact is three "
     "times differentiable",
     fields=(ROUGHNESS,),
-    build=build_load_fraction,
+    build=build_christensen_fraction,
 )

@@ -57,7 +57,7 @@ SOURCES: Mapping[str, str] = {
     "exact": "a (1 + c_e) = ln[(1 + a)/(1 - a c_e)], solved for a: the identity of the delivered restitution",
 }
 # clauses of `validity` for laws whose force is limited to pushing: everywhere, and where surfaces separate
-NO_PULL = "the formula pulls, and the force is then set to 0 unless the option pulls is true"
+NO_PULL = "the formula pulls, and with pulls: false the force is then set to 0"
 SEPARATION = f"where surfaces are driven apart fast, {NO_PULL}"
 PULLS = flag("pulls", "apply the formula without max(0, ...): the force then pulls where the surfaces separate fast")
 EXACT = "exact"  # delivers the restitution that it is given

@@ -20,7 +20,7 @@ from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 POWER = 6.804
 
 
-def build_load_fraction(inputs: LawInputs) -> dict[str, Any]:
+def build_greenwood_tripp_fraction(inputs: LawInputs) -> dict[str, Any]:
     """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
 
     It rises from 0 to 1 with the penetration δ > 0.
@@ -52,5 +52,5 @@ LAW = Law(
     "surfaces meet; the clearance c is measured between the tips of the asperities, and the film has "
     "the clearance c + 4 sigma; the approximation of b deviates by at most 0.014",
     fields=(ROUGHNESS,),
-    build=build_load_fraction,
+    build=build_greenwood_tripp_fraction,
 )

@@ -58,7 +58,7 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
     "mixed": ("delta",),  # δ > 0 (m)
 }
 # Further variables of the role that a law may read.
-FURTHER_VARIABLES: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
+VARIABLES_OUTSIDE_ROLE: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
 CONSTRAINT_VARIABLES = (
     "held_force",
 )  # N, a law of rigid surfaces reads it instead: the constraint force that keeps e = c
@@ -126,13 +126,13 @@ class Law:
 
     @property
     def variables(self) -> tuple[str, ...]:
-        """Return the names of the variables of `build`: those of its role, further ones, internal states."""
-        return (*VARIABLES[self.role], *self.further, *(state.name for state in self.states))
+        """Return the names of the variables of `build`: those of its role, those outside it, internal states."""
+        return (*VARIABLES[self.role], *self.variables_outside_role, *(state.name for state in self.states))
 
     @property
-    def further(self) -> tuple[str, ...]:
+    def variables_outside_role(self) -> tuple[str, ...]:
         """Return the variables that `build` may read in addition to those of its role."""
-        return CONSTRAINT_VARIABLES if self.rigid else FURTHER_VARIABLES.get(self.role, ())
+        return CONSTRAINT_VARIABLES if self.rigid else VARIABLES_OUTSIDE_ROLE.get(self.role, ())
 
     @property
     def results(self) -> tuple[str, ...]:

@@ -28,7 +28,8 @@ from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, mak
 def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
     """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
 
-    T0 is the shear torque per unit ω_j − ω_i (N·m·s). The results and their abbreviations are equations by name.
+    T0 is the shear torque per unit ω_j − ω_i (N·m·s). The results and their abbreviations are equations by name. The
+    option `cavitation` selects the half film, or with "full" the complete film with its negative pressures.
     """
     import sympy as sp
 

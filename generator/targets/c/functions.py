@@ -207,12 +207,12 @@ class LinePrinter(ValuePrinter):
     def _print_sines(self, sines: Sines) -> list[str]:
         """Return the declarations and the call that compute sines and cosines of several angles in vectors of four.
 
-        In lanes one call computes one angle of all runs, and marks lanes with large angles in `rare`. Otherwise four
-        angles share a call, and `sines.count` groups of four share one call of compute_sine_and_cosine_groups.
+        In lanes one call computes one angle of all runs, and marks lanes with large angles in `needs_scalar`. Otherwise
+        four angles share a call, and `sines.count` groups of four share one call of compute_sine_and_cosine_groups.
         """
         angles, suffix = [self.print_expression(angle) for angle in sines.angles], sines.suffix
         if sines.lanes:
-            lanes_call = f"compute_sines_and_cosines({angles[0]}, &sines_{suffix}, &cosines_{suffix}, rare);"
+            lanes_call = f"compute_sines_and_cosines({angles[0]}, &sines_{suffix}, &cosines_{suffix}, needs_scalar);"
             return [f"Lanes sines_{suffix}, cosines_{suffix};", lanes_call]
         groups = [", ".join(angles[k : k + 4]) for k in range(0, len(angles), 4)]
         if sines.count:

@@ -137,7 +137,7 @@ def _print_linearized_equations(
     slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         slopes.append(
-            _print_tangent_in_lanes(
+            _print_force_derivatives_in_lanes(
                 newton.system.model, clearance, methods.derivative_calls[clearance.name], render, n_states
             )
         )
@@ -157,7 +157,7 @@ def _print_linearized_equations(
     )
 
 
-def _print_tangent_in_lanes(
+def _print_force_derivatives_in_lanes(
     model: Model,
     clearance: Clearance,
     derivative_calls: Mapping[str, SharedFunctionCall],
@@ -166,8 +166,10 @@ def _print_tangent_in_lanes(
 ) -> str:
     """Return the C function `tangent_<joint>_` for lanes: the derivatives of the force of a joint with play.
 
-    derivative_calls: the calls of the derivatives by part, "film", "dry" and "share" (the fraction of the dry contact).
-    Parts that the joint does not have are missing. n_states: internal states of laws that each joint has.
+    The matrix has 4 + n_states rows (force, moments, state rates) and 5 + n_states columns (e, δ̇, ė_t, ω_i, ω_j,
+    states).
+    derivative_calls: the calls of the derivatives by part, "film", "dry" and "share" (the fraction of the dry
+    contact). Parts that the joint does not have are missing. n_states: internal states of laws that each joint has.
     """
     arguments_and_result = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {

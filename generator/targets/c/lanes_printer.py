@@ -1,7 +1,7 @@
 """Prints kernels for SIMD lanes, one run per lane: the same statements with vectors (lanes.h), masks for branches.
 
 The order of operations is kept, so that each lane rounds as a single run does. Lanes in which a single run would take
-another path are added to the mask `rare`. Their steps fall back to the scalar code of single runs.
+another path are added to the mask `needs_scalar`. Their steps fall back to the scalar code of single runs.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _TYPES: dict[Type, Type] = {
     "PinSlopes": "LaneSlopes",
     "Wide": "Lanes",
 }
-_FALLBACK_MASK = make_output_argument("rare", "LaneBits")  # lanes that the scalar code must compute
+_FALLBACK_MASK = make_output_argument("needs_scalar", "LaneBits")  # lanes that the scalar code must compute
 # Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots.
 _SINGLE_RUN_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return)
 
@@ -157,8 +157,8 @@ class LaneLines(functions.LinePrinter):
     def _print_line(self, line: Line) -> Sequence[str]:
         """Return one line of a kernel as lines of C for vectors.
 
-        Branches become choices by masks. A lane whose pivot fails its test is marked in `rare` instead of leaving the
-        function. Raises ValueError for a line without a counterpart.
+        Branches become choices by masks. A lane whose pivot fails its test is marked in `needs_scalar` instead of
+        leaving the function. Raises ValueError for a line without a counterpart.
         """
         match line:
             case Branch():
@@ -166,7 +166,7 @@ class LaneLines(functions.LinePrinter):
                 branch, then, otherwise = map(self.print_expression, (line.branch, line.value_above, line.value_below))
                 return [f"{declaration} = select_value({branch} < 0.0, {otherwise}, {then});"]
             case Guard(test=Test() as test, condition=None):
-                return [f"*rare |= ~({self.print_test(test)});"]
+                return [f"*needs_scalar |= ~({self.print_test(test)});"]
             case Call():
                 values = (*line.inputs, *line.results)
                 arguments = [
@@ -225,7 +225,8 @@ def print_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors without a status.
 
     Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots, are left out. The
-    function marks lanes that it cannot compute in `rare`, which must be an argument of a kernel with guards or sines.
+    function marks lanes that it cannot compute in `needs_scalar`, an argument that a kernel with guards or sines must
+    have.
     """
     lane_sections = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _SINGLE_RUN_LINES)))
@@ -245,15 +246,16 @@ def print_kernel(kernel: Kernel) -> str:
 
 
 def print_motion_kernel(kernel: Kernel) -> str:
-    """Return a kernel of the motion as a C function for vectors, with the further argument `rare`.
+    """Return a kernel of the motion as a C function for vectors, with the additional argument `needs_scalar`.
 
-    Its sines and cosines are computed one angle at a time for all lanes, which marks lanes with large angles in `rare`.
+    Its sines and cosines are computed one angle at a time for all lanes, which marks lanes with large angles in
+    `needs_scalar`.
     """
     return print_kernel_with_fallback(call_sines_by_lane(kernel))
 
 
 def print_kernel_with_fallback(kernel: Kernel) -> str:
-    """Return a kernel as a C function for vectors with the further argument `rare`, a mask of lanes.
+    """Return a kernel as a C function for vectors with the additional argument `needs_scalar`, a mask of lanes.
 
     The C function adds the lanes in which a pivot fails its test; for these the engine falls back to single runs.
     """

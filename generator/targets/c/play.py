@@ -86,8 +86,8 @@ def make_printed_functions(joint: JointFunctions, render: Render, n_states: int)
         _select_template(joint),
         joint=label,
         kind=clearance.kind,
-        arguments=_ARGUMENTS % _declare_further_arguments(clearance),
-        further_arguments="".join(f", {name}" for name in _list_contour_arguments(joint)),
+        arguments=_ARGUMENTS % _declare_surface_arguments(clearance),
+        contour_arguments="".join(f", {name}" for name in _list_contour_arguments(joint)),
         gap=_print_statements(joint.gap),
         share=_print_statements(joint.share),
         rigid=clearance.rigid,
@@ -105,7 +105,7 @@ def make_printed_functions(joint: JointFunctions, render: Render, n_states: int)
     yield PrintedFunction(get_function_name("clearance", label), text, stores)
 
 
-def _declare_further_arguments(clearance: Clearance) -> str:
+def _declare_surface_arguments(clearance: Clearance) -> str:
     """Return the C declarations of the arguments that only some joints have: n_x, n_y at a wall, theta_i for a contour.
 
     "" is returned for other joints.
@@ -150,7 +150,7 @@ def _make_dry_function(joint: JointFunctions, render: Render, n_states: int) -> 
         "after": _print_statements(joint.after_dry),
     }
     substitutions["force_along_n"] = "-F_N" if clearance.contour else "-F_n"
-    substitutions["further_arguments"] = "".join(f", double {name}" for name in _list_contour_arguments(joint))
+    substitutions["contour_arguments"] = "".join(f", double {name}" for name in _list_contour_arguments(joint))
     laws = [joint.laws[role] for role in ("normal", "friction") if role in joint.laws]
     substitutions["unused_arguments"] = functions.find_unused_branch_arguments(
         laws, (*joint.before_dry, *joint.after_dry)
@@ -207,9 +207,9 @@ def _print_result_store(clearance: Clearance, n_states: int) -> str:
     """
     rates = print_state_rates("F.state_rate", clearance, n_states)
     position = _AT_WALL if clearance.wall else _JOURNAL
-    further_members = f", .state_rate = {rates}" if rates else ""
-    further_members += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
-    return _STORE % (*position, further_members + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
+    other_members = f", .state_rate = {rates}" if rates else ""
+    other_members += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
+    return _STORE % (*position, other_members + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
 def print_state_rates(array_name: str, clearance: Clearance, n_states: int, fill_value: str = "0.0") -> str:
@@ -238,7 +238,7 @@ def _list_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -
     Without a friction law, the friction force is 0. For rigid surfaces, a further line prescribes it while an impact is
     solved. The arguments are those of `print_dry_calls`.
     """
-    arguments: Sequence[str] = [penetration, "ratio", *map(print_expression, joint.further_places)]
+    arguments: Sequence[str] = [penetration, "ratio", *map(print_expression, joint.normal_law_argument_places)]
     normal = functions.print_shared_call(joint.laws["normal"], arguments, ("&F_n",))
     calls = [(f"{number_type} F_n;", ""), (normal, "F_n")]
     normal_force = "F_N" if joint.contour_normal_force else "F_n"

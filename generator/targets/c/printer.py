@@ -306,10 +306,10 @@ class ValuePrinter:
                 if not test.compares_magnitude
                 else f"{value} != 0.0 && isfinite({value})"
             )
-        bound = " * ".join(map(self._print_factor, test.bound))
+        bound = " * ".join(map(self._print_bound_factor, test.bound))
         return f"{left_side} {test.relation} {bound}" if test.relation else left_side
 
-    def _print_factor(self, value: sp.Basic | float) -> str:
+    def _print_bound_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a test's bound as a C expression.
 
         A threshold is printed as its storage place if it has one, else as its macro in model.h. Other floats are

@@ -47,14 +47,14 @@ _COMPILED = (
 )
 
 
-def print_readme(program: Program, files: Mapping[str, str], further_files: Collection[str] = ("kernel.json",)) -> str:
+def print_readme(program: Program, files: Mapping[str, str], other_files: Collection[str] = ("kernel.json",)) -> str:
     """Return the Markdown text of README.md: the order in which to read a scene's files, and what each contains.
 
-    files: text of each file by its name. further_files: names of further files in the folder. A file that
+    files: text of each file by its name. other_files: names of other files in the folder. A file that
     `list_file_purposes` does not have is described by its first comment.
     """
     mechanism, scene = program.model.scene.mechanism, program.model.scene
-    names = [*files, *further_files]
+    names = [*files, *other_files]
     equations = [name for name in _EQUATION_FILES if name in names]
     numerics = [name for name in _METHOD_FILES if name in names]
     numerics = [*(name for name in names if name not in (*equations, *numerics)), *numerics]
@@ -89,13 +89,17 @@ def list_file_purposes(program: Program) -> dict[str, str]:
 
 
 def _describe_sizes(program: Program) -> str:
-    """Return a sentence about the sizes of the scene: bodies, coordinates, constraint equations, joints with play."""
+    """Return two sentences about the sizes of the scene and of the integrated system.
+
+    The first has the numbers of bodies, coordinates, constraint equations and joints with play. The second has those of
+    the integrated coordinates and equations, or "nothing" if drives determine the motion.
+    """
     model, system = program.model, program.integrated.system
     joints_with_play = {clearance.joint.name for clearance in model.clearances}
     integrated = f"{_format_count(system.q, 'coordinate')}, {_format_count(system.rows, 'constraint equation')}"
     return (
         f"{_format_count(model.bodies, 'body', 'bodies')} with {_format_count(model.q, 'coordinate')}, "
-        f"{_format_count(model.rows, 'constraint equation')},  {_format_count(joints_with_play, 'joint')} with play. "
+        f"{_format_count(model.rows, 'constraint equation')}, {_format_count(joints_with_play, 'joint')} with play. "
         f"Integrated: {integrated if program.integrates else 'nothing, because drives determine the motion'}."
     )
 

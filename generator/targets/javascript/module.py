@@ -57,7 +57,7 @@ def print_equations_script(program: Program) -> str:
     methods = [print_method(dynamics, members_read, find_right_hand_side_locals(dynamics, model))]
     methods += [print_method(kernel, members_read) for kernel in (*kernels, *program.laws)]
     methods += [method_text for joint in program.joints for method_text in print_joint_methods(joint, members_read)]
-    tree_methods = print_tree_functions(program, members_read)
+    tree_methods = print_reduced_functions(program, members_read)
     methods = [*tree_methods.values(), *methods]  # the order of the similar C, with which the page is compressed
     kernels += [dynamics, *(kernel for kernel in _list_state_kernels(program) if kernel.name in tree_methods)]
     method_text = ",\n".join(methods)
@@ -91,7 +91,7 @@ def print_equations_script(program: Program) -> str:
     )
 
 
-def print_tree_functions(program: Program, members_read: set[str]) -> dict[str, str]:
+def print_reduced_functions(program: Program, members_read: set[str]) -> dict[str, str]:
     """Return {name: JavaScript method} of the functions of reduced.c that can be evaluated from a sample of a run.
 
     A function with a line that JavaScript does not have is left out, such as one that needs friction modes or curves.
@@ -170,7 +170,7 @@ def make_play_kernel(model: Model) -> Kernel:
         builder.begin_section(f"{clearance.kind} {clearance.name}")
         angular_velocities = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *angular_velocities)
-        values += clearance.further_arguments
+        values += clearance.surface_arguments
         for name, value in zip(_name_motion_locals(model, i), values, strict=True):
             builder.append_line(Statement(name, sp.sympify(value)))
     return builder.build_kernel((*STATE, PARAMETERS))

@@ -75,7 +75,10 @@ def _print_dry_contact_body(joint: JointFunctions, members_read: set[str]) -> li
     )
     body = [f"const {ratio_name} = contact.closed ? deltadot / contact.deltadot_minus : 1;", *before.text]
     body += _print_law_call(
-        joint.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, joint.further_places)), ("F_n",), members_read
+        joint.laws["normal"],
+        ("max_of(delta, 0)", "ratio", *map(str, joint.normal_law_argument_places)),
+        ("F_n",),
+        members_read,
     )
     contour_force = _PrintedStatements(joint.contour_normal_force, members_read)
     normal_force, body = "F_N" if joint.contour_normal_force else "F_n", [*body, *contour_force.text]

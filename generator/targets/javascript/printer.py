@@ -161,7 +161,7 @@ def _print_outputs_literal(kernel: Kernel) -> str:
 class JavaScriptValuePrinter(ValuePrinter):
     """Print values of kernels as JavaScript; thresholds of pivots become numbers."""
 
-    def _print_factor(self, value: sp.Basic | float) -> str:
+    def _print_bound_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a bound in JavaScript; a threshold is printed as a number."""
         return repr(float(value)) if isinstance(value, float) else self.print_expression(value)
 

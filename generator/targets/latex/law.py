@@ -80,19 +80,19 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
 class Form:
     """Represent the equations of a law for one choice of its options.
 
-    `selected`: the choice, {} for the defaults. `constants`: equations that are evaluated once per run. `steps`:
+    `selected`: the choice, {} for the defaults. `constants`: equations that are evaluated once per run. `evaluated`:
     equations of each evaluation. `used`: (name in Python, symbol) of inputs and results.
     """
 
     selected: Mapping[str, str | bool]
     constants: tuple[Equation, ...]
-    steps: tuple[Equation, ...]
+    evaluated: tuple[Equation, ...]
     used: tuple[tuple[str, Name], ...]
 
     @property
     def equations(self) -> tuple[Equation, ...]:
-        """Return all equations of the form: constants of a run, then steps of an evaluation."""
-        return self.constants + self.steps
+        """Return all equations of the form: constants of a run, then those of each evaluation."""
+        return self.constants + self.evaluated
 
 
 def derive_forms(law: Law, name: str) -> list[Form]:
@@ -104,8 +104,10 @@ def derive_forms(law: Law, name: str) -> list[Form]:
     alias_options = law.also.get(name, {})
     defaults = {law_field.name: law_field.default_option for law_field in law.options} | {**alias_options}
     required_names = [law_field.name for law_field in law.parameters if not _is_optional(law_field)]
-    zero_steps = {name for name, value in probe_law(law, defaults, required_names).steps.items() if value == 0}
-    default_form = _derive_form(law, {}, defaults, (), zero_steps)
+    zero_names = {
+        name for name, value in probe_law(law, defaults, required_names).equations_by_name.items() if value == 0
+    }
+    default_form = _derive_form(law, {}, defaults, (), zero_names)
     known_equations = {print_equation(equation) for equation in default_form.equations}
     all_forms = [default_form]
     selected: list[tuple[str, str | bool]] = [
@@ -121,12 +123,12 @@ def derive_forms(law: Law, name: str) -> list[Form]:
     ):
         is_number = key not in defaults
         options, chosen_names = defaults if is_number else {**defaults, key: value}, (key,) if is_number else ()
-        form = _derive_form(law, {key: value}, options, chosen_names, zero_steps)
+        form = _derive_form(law, {key: value}, options, chosen_names, zero_names)
         all_forms.append(
             replace(
                 form,
                 constants=_select_new_equations(form.constants, known_equations),
-                steps=_select_new_equations(form.steps, known_equations),
+                evaluated=_select_new_equations(form.evaluated, known_equations),
             )
         )
     return all_forms
@@ -176,7 +178,7 @@ def _make_document(law: Law, name: str) -> Document:
 
 
 def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks on a law's default form: table of symbols, internal states, constants and steps.
+    """Yield the blocks on a law's default form: table of symbols, internal states, constants and equations.
 
     other_forms: forms of other choices, whose inputs and results are listed in the table, too.
     """
@@ -188,7 +190,7 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
         yield make_paragraph("Once per run:")
         yield from default_form.constants
     yield make_paragraph("At each evaluation:")
-    yield from default_form.steps
+    yield from default_form.evaluated
 
 
 def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
@@ -246,14 +248,14 @@ def _derive_form(
     selected: Mapping[str, str | bool],
     options: Mapping[str, str | bool],
     chosen_names: Sequence[str],
-    zero_steps: Set[str],
+    zero_names: Set[str],
 ) -> Form:
     """Return a law's equations for one choice, evaluated with symbols for its parameters (`probe_law`).
 
     Constants that are equal to a parameter are replaced by it.
 
     selected: the choice. options: the values of all options. chosen_names: optional numbers that are specified.
-    zero_steps: names of steps that are zero by default; they are left out while they are zero.
+    zero_names: names of equations whose value is zero by default; they are left out while they are zero.
     """
     parameter_names = [
         law_field.name for law_field in law.parameters if not _is_optional(law_field) or law_field.name in chosen_names
@@ -270,7 +272,9 @@ def _derive_form(
         return value
 
     names = _restore_law_names(
-        assign_unique_names(_propose_symbol_names(law, parameter_names, probed_law.derived, probed_law.steps))
+        assign_unique_names(
+            _propose_symbol_names(law, parameter_names, probed_law.derived, probed_law.equations_by_name)
+        )
     )
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {
@@ -278,13 +282,13 @@ def _derive_form(
         for name, value in probed_law.derived.items()
         if _make_probe_symbol(name) not in repeated_constants
     }
-    steps = {
+    equations_by_name = {
         sp.Symbol(name, real=True): replace_repeated_constants(value)
-        for name, value in probed_law.steps.items()
-        if value != 0 or name not in zero_steps
+        for name, value in probed_law.equations_by_name.items()
+        if value != 0 or name not in zero_names
     }
-    free_symbols = [value.free_symbols for value in (*constants.values(), *steps.values())]
-    symbols_read = {step for step, value in steps.items() if value != 0}.union(*free_symbols)
+    free_symbols = [value.free_symbols for value in (*constants.values(), *equations_by_name.values())]
+    symbols_read = {name for name, value in equations_by_name.items() if value != 0}.union(*free_symbols)
     described_symbols = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
     described_symbols |= {name: _make_probe_symbol(name) for name in PAIR}
     letters = tuple(
@@ -297,11 +301,11 @@ def _derive_form(
         """Return {symbol: value} as equations in the notation of the law, in the same order."""
         return tuple(make_equation(left, right, notation) for left, right in definitions.items())
 
-    return Form(selected, make_equations(constants), make_equations(steps), letters)
+    return Form(selected, make_equations(constants), make_equations(equations_by_name), letters)
 
 
 def _propose_symbol_names(
-    law: Law, parameter_names: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
+    law: Law, parameter_names: Sequence[str], constants: Mapping[str, sp.Expr], equations_by_name: Mapping[str, sp.Expr]
 ) -> Iterator[tuple[sp.Symbol, Name]]:
     """Yield (symbol, proposed name) for a law: variables, results, parameters, pair, constants, abbreviations.
 
@@ -322,7 +326,7 @@ def _propose_symbol_names(
         yield _make_probe_symbol(name), make_symbol_name(base, index) if index else make_symbol_name(base)
     for name in constants:
         yield _make_probe_symbol(name), LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
-    for name in steps:
+    for name in equations_by_name:
         yield sp.Symbol(name, real=True), name_law_variable(law, name)
 
 

@@ -183,7 +183,7 @@ def _describe_events(model: Model, notation: Notation) -> list[Block]:
 def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block]:
     """Return the equation of motion with multipliers, Baumgarte's gains, its matrix as a picture, degrees of freedom.
 
-    Without constraint equations it is M q̈ = g. A kinematically driven scene has a further note.
+    Without constraint equations it is M q̈ = g. A kinematically driven scene has a note in addition.
     """
     n, m = len(model.q), len(model.rows)
     if not model.rows:

@@ -192,30 +192,31 @@ class JointWithPlay:
     def list_law_assignments(self, equations: LawEquations) -> list[Assignment]:
         """Return the equations of a law as assignments to this joint's symbols, without those of value zero.
 
-        Symbols of steps are replaced by those of the joint. Friction of a contour reads the normal force F_N.
+        Symbols of the law are replaced by those of the joint. Friction of a contour reads the normal force F_N.
         """
         joint_symbols = {
-            sp.Symbol(name, real=True): contact_names.get_result_symbol(equations, name) for name in equations.steps
+            sp.Symbol(name, real=True): contact_names.get_result_symbol(equations, name)
+            for name in equations.equations_by_name
         }
         if self.clearance.contour and equations.law.role == "friction":
             joint_symbols[sp.Symbol("F_n", real=True)] = contact.F_N
         return [
             Assignment(contact_names.get_result_symbol(equations, name), sp.sympify(value).xreplace(joint_symbols))
-            for name, value in equations.steps.items()
+            for name, value in equations.equations_by_name.items()
             if value != 0
         ]
 
-    def make_equations(self, steps: list[Assignment]) -> list[Block]:
+    def make_equations(self, assignments: list[Assignment]) -> list[Block]:
         """Return an equation symbol = value for each assignment, in this joint's notation and with its law tokens."""
         return [
             make_equation(
-                step.symbol,
-                self.notation.expand_symbols(step.value),
+                assignment.symbol,
+                self.notation.expand_symbols(assignment.value),
                 self.notation,
                 self.law_tokens,
                 self.law_tokens[0],
             )
-            for step in steps
+            for assignment in assignments
         ]
 
 
@@ -264,7 +265,7 @@ def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
     """
     clearance, expand, notation = joint.clearance, joint.notation.expand_symbols, joint.notation
     joint_ref = clearance.joint
-    steps = [
+    assignments = [
         *zip((contact.e_x, contact.e_y), clearance.eccentricity, strict=True),
         *zip((contact.de_x, contact.de_y), clearance.eccentricity_rate, strict=True),
         (contact.omega_i, clearance.first.omega),
@@ -277,8 +278,10 @@ def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
     )
     if clearance.wall:
         introduction = describe_corner(clearance.name, *point_names)
-        steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
-    blocks: list[Block] = [make_equation(symbol, expand(value), notation, joint.tokens) for symbol, value in steps]
+        assignments += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
+    blocks: list[Block] = [
+        make_equation(symbol, expand(value), notation, joint.tokens) for symbol, value in assignments
+    ]
     if clearance.contour:
         blocks += describe_contour(joint)
     return [introduction, *blocks, *(joint.make_equations(contact.make_gap_equations(clearance)) if is_first else [])]

@@ -16,7 +16,6 @@ from gudgeon.generator.equations.contact_steps import (
     M_j,
     a_i,
     a_j,
-    along,
     beta_i,
     beta_rate,
     contour_depth,
@@ -35,6 +34,7 @@ from gudgeon.generator.equations.contact_steps import (
     n_y,
     omega_i,
     omega_j,
+    position_along_guide,
     ratio,
     share,
     slant,
@@ -86,7 +86,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     w_t: make_symbol_name("w", "t"),
     share: make_symbol_name("b"),
     F_along_n: make_symbol_name("F", "e"),
-    along: make_symbol_name("e", "t"),
+    position_along_guide: make_symbol_name("e", "t"),
     F_x: make_symbol_name("F", "x"),
     F_y: make_symbol_name("F", "y"),
     theta_i: make_symbol_name("theta", "i"),
@@ -119,8 +119,8 @@ LAW_SYMBOL_NAMES = {
     "deepest": make_symbol_name("delta", "max"),
     "scale": make_symbol_name("l"),
     "part": make_symbol_name("y"),
-    "gone": make_symbol_name("x"),
-    "left": make_symbol_name("y"),
+    "overlap_fraction": make_symbol_name("x"),
+    "remainder": make_symbol_name("y"),
     "F_e": make_symbol_name("F", "el"),
 }
 # Symbols of physics.md for abbreviations of single laws: (law, name in its Python).
@@ -197,7 +197,7 @@ def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[
         if not (wall and value == pair.R_j):
             yield value, LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
     for equations, _ in laws:
-        for name in equations.steps:
+        for name in equations.equations_by_name:
             yield get_result_symbol(equations, name), name_law_variable(equations.law, name)
 
 
@@ -224,9 +224,10 @@ def list_specified_parameters(equations: LawEquations, law_use: LawUse) -> list[
 
 
 def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
-    """Return the symbol of a step of a law by its name in the law's Python.
+    """Return the symbol of an intermediate quantity or result of a law by its name in the law's Python.
 
-    The result F_t of a law is the tangential force of the film or of the dry contact, by the role of the law.
+    It is the real symbol of that name, except for a result F_t: the tangential force of the film (role film) or of the
+    dry contact (other roles).
     """
     if name == "F_t" and name in RESULTS[equations.law.role]:
         return make_part_symbol(F_along_t, "film" if equations.law.role == "film" else "dry")

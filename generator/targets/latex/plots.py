@@ -125,9 +125,9 @@ def _plot_normal_force(
     )
     curves = []
     for ratio in (1.0, 0.0, -1.0):
-        rate_argument = [ratio * APPROACH_SPEED] if joint.further_variables else []
+        rate_argument = [ratio * APPROACH_SPEED] if joint.normal_law_extra_variables else []
         y = np.broadcast_to(_call_law_kernel(functions, call, parameters, delta, ratio, *rate_argument), delta.shape)
-        rate_label = f", δ̇ = {ratio * APPROACH_SPEED:g} m/s" if joint.further_variables else ""
+        rate_label = f", δ̇ = {ratio * APPROACH_SPEED:g} m/s" if joint.normal_law_extra_variables else ""
         curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}{rate_label}"))
     caption = "The normal force over the penetration, while the surfaces approach, rest and separate"
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)

@@ -245,7 +245,8 @@ def _print_tex_columns(table: Table) -> str:
 def _select_tex_size(block: Sketch | Picture | Table) -> str:
     r"""Return the LaTeX font size that fits the longest line of a sketch, picture or table.
 
-    A table is \small, \footnotesize from 106 characters on, \scriptsize from 126 on; others are \footnotesize up to 98.
+    A table is \small, \footnotesize from 106 characters on, \scriptsize from 126 on; others are \footnotesize
+    up to 98 characters, \scriptsize beyond.
     """
     if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"

@@ -171,12 +171,13 @@ def _list_clearance_assignments(clearance: Clearance) -> Iterator[Assignment]:
     yield from contact.make_resultant_equations(clearance)
     for equations in clearance.laws:
         yield from (
-            Assignment(get_result_symbol(equations, name), sp.sympify(step)) for name, step in equations.steps.items()
+            Assignment(get_result_symbol(equations, name), sp.sympify(value))
+            for name, value in equations.equations_by_name.items()
         )
 
 
-def _list_assignment_symbols(steps: Iterable[Assignment]) -> Iterator[sp.Symbol]:
-    """Yield the symbols of steps: each result, then the symbols in its value."""
-    for step in steps:
-        yield step.symbol
-        yield from sp.sympify(step.value).free_symbols
+def _list_assignment_symbols(assignments: Iterable[Assignment]) -> Iterator[sp.Symbol]:
+    """Yield the symbols of assignments: each result, then the symbols in its value."""
+    for assignment in assignments:
+        yield assignment.symbol
+        yield from sp.sympify(assignment.value).free_symbols

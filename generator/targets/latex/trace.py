@@ -28,7 +28,7 @@ from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.emit import describe_program, emit_scene, list_file_names, render_template
 from gudgeon.generator.targets.c.lines import StoredLines, locate_function, locate_stores, locate_text
 from gudgeon.generator.targets.c.play import make_printed_functions
-from gudgeon.generator.targets.javascript.module import find_right_hand_side_locals, print_tree_functions
+from gudgeon.generator.targets.javascript.module import find_right_hand_side_locals, print_reduced_functions
 from gudgeon.generator.targets.latex.document import (
     list_entry_tokens,
     list_joint_tokens,
@@ -108,7 +108,7 @@ class _TokenCollector:
         self.row_numbers = {row.name: k for k, row in enumerate(self.model.rows, 1)}
         self.all_rows = self.model.all_rows
         self.right_hand_side_locals = find_right_hand_side_locals(program.dynamics, self.model)
-        self.tree_functions = print_tree_functions(program, set())
+        self.tree_functions = print_reduced_functions(program, set())
         self.law_names = {kernel.name for kernel in program.laws}
         self.multiplier_locals = {make_identifier(f"lambda_{row.name}"): k for k, row in enumerate(self.model.rows, 1)}
         members = map(self.model.parameter_table.find_field_name, self.model.parameter_table.list_symbols())
@@ -247,16 +247,17 @@ class _TokenCollector:
                 return name_marks | ({make_entry_token(number, column + 1)} if number else NO_MARKS)
             return name_marks | self._get_row_tokens(self.all_rows[index].name)
         if function_name in ("dynamics", "closures", "closure_rates"):
-            return self._find_dynamics_tokens(function_name, line.declared_local, array, index)
+            return self._find_constraint_tokens(function_name, line.declared_local, array, index)
         if function_name == STEP:
             return self._get_row_tokens(self.loop_row_by_local.get(line.declared_local, ""))
         return NO_MARKS
 
-    def _find_dynamics_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Marks:
-        """Return the token of the constraint equation of a value that `dynamics` or a closure function stores.
+    def _find_constraint_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Marks:
+        """Return the token of the constraint equation of a value that `dynamics` or a function of loop closures stores.
 
-        It follows from the index in the array phi, phi_dot or out, or from the local's name rhs_<row>. The result is a
-        set, empty for other values.
+        It follows from the index in the array phi, phi_dot or out (negative: none), or from the local's name rhs_<row>.
+        The index counts the rows of the full formulation in `dynamics`, and the loop closures of the integrated system
+        in `closures` and `closure_rates`. The result is a set, empty for other values.
         """
         rows = self.model.rows if function_name == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):

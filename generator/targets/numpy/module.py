@@ -443,8 +443,8 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
         f"out.ex, out.ey, out.e, out.deltadot, out.delta = {position}, e, deltadot, delta",
         f"out.moment_first, out.moment_second, out.power = {moment_first}, F[3], 0.0",
     ]
-    further_arguments = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
-    signature = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{further_arguments}, contact, p, out):"
+    surface_arguments = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
+    signature = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{surface_arguments}, contact, p, out):"
     return "\n".join([*break_code(signature), *indent_lines(body)])
 
 
@@ -467,7 +467,7 @@ def _print_dry_contact(joint: JointFunctions) -> list[str]:
         *print_statements(joint.before_dry),
         *print_assignment(
             "F_n",
-            _print_law_call(joint.laws["normal"], "delta", "ratio", *map(print_name, joint.further_places)),
+            _print_law_call(joint.laws["normal"], "delta", "ratio", *map(print_name, joint.normal_law_argument_places)),
             is_call=True,
         ),
         *print_statements(joint.contour_normal_force),

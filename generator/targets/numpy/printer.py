@@ -237,11 +237,14 @@ class LinePrinter:
         left_side = f"np.abs({value})" if test.compares_magnitude else value
         if test.is_relative_to_value:
             return f"0 < {left_side} < np.inf"
-        bound = " * ".join(map(self._print_factor, test.bound))
+        bound = " * ".join(map(self._print_bound_factor, test.bound))
         return f"{left_side} {test.relation} {bound}" if test.relation else left_side
 
-    def _print_factor(self, value: sp.Basic | float) -> str:
-        """Return a factor of a bound as Python; a threshold is printed by its name."""
+    def _print_bound_factor(self, value: sp.Basic | float) -> str:
+        """Return a factor of the bound of a comparison (`test.bound`, a product) as Python, without parentheses.
+
+        It is a number, an expression, or a threshold, which is printed by its name.
+        """
         if isinstance(value, Threshold):
             return value.name
         return repr(value) if isinstance(value, float) else self.print_expression(value)

@@ -431,9 +431,10 @@ def read_stored_series(
 
 
 def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result] | None) -> Any:
-    """Return the peaks over all steps as a tuple of Extremes for each run; () if the file has none.
+    """Return the extremes over all steps as a tuple of Extremes for each run.
 
-    They are read from the diagnostics of `runs`, or if `runs` is None from the table `runs` of the file.
+    They are read from the diagnostics of `runs`, with () for a run that it lacks. If `runs` is None they are read from
+    the table `runs` of the file; () if it has none.
     """
     if runs is not None:
         return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(n_runs))

@@ -228,8 +228,10 @@ def build_energy_rows(report: Mapping[str, Any]) -> Rows:
 
 
 def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
-    """Return the rows (name, cell) of the accuracy of a run: drift, tolerance or step, predictability horizon,
-    differences.
+    """Return the rows (name, cell) of a run's accuracy: drift, tolerance, step, predictability horizon, differences.
+
+    A tolerance or step that is not finite has no row; a horizon that is not finite becomes "not requested". Without a
+    requested comparison with smaller steps, the last row says so.
     """
     rows = [("drift, max |Φ|", f"{accuracy['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{accuracy['phi_dot_max']:.2e}")]
     if math.isfinite(accuracy["rtol"]):

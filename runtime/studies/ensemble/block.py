@@ -21,7 +21,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.simulation.wear import parse_wear_rate
 from gudgeon.simulation.wear_loop import WearLoop, WearModel, scale_progress
 from gudgeon.studies.ensemble.exponents import compute_neighbour_measures
-from gudgeon.studies.ensemble.libraries import choose_method, load_library
+from gudgeon.studies.ensemble.libraries import get_method_for_scene, load_library
 from gudgeon.studies.ensemble.measures import (
     Spans,
     evaluate_measure,
@@ -313,7 +313,7 @@ def _simulate_block_runs(
         list_sliding_requests(settings.measures, source),
     )
     options: dict[str, Any] = {
-        "method": choose_method(source, settings.method),
+        "method": get_method_for_scene(source, settings.method),
         "rtol": settings.rtol if source.degrees_of_freedom else None,
         "step": step,
         "threads": job.threads,

@@ -114,8 +114,8 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
     runs = _FinishedRuns(plans, study, collect_display_names(plans).values)
     cells = {str(judged.claim.name): judged.cell for judged in claims.numbers}
     rows = {
-        "numbers": [row for judged in claims.numbers for row in _judge_number(judged, runs, cells)],
-        "trends": [row for judged in claims.trends for row in _judge_trend(judged, runs)],
+        "numbers": [row for judged in claims.numbers for row in _yield_number_rows(judged, runs, cells)],
+        "trends": [row for judged in claims.trends for row in _yield_trend_rows(judged, runs)],
     }
     with open_atomic(folder / CLAIMS_FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
@@ -209,13 +209,13 @@ class _FinishedRuns:
         return np.asarray(cell_values).ravel()
 
 
-def _judge_number(
+def _yield_number_rows(
     number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, RunCell]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the table row of a number for each ensemble: quartiles of its runs, and the deviation of the median in %.
+    """Yield the table row of a claimed number for each ensemble: quartiles of its runs, deviation of the median in %.
 
     cells: cells of all numbers by the name of their claim. The deviation is relative to the printed value, or to the
-    median of the number in `beside`. It is None without finite values, or relative to 0.
+    median of the reference claim (key `beside` of the file). It is None without finite values, or relative to 0.
     """
     claim = number.claim
     for ensemble in finished_runs.list_ensembles([number.cell]):
@@ -274,7 +274,7 @@ def _list_cell_dimensions(plan: Plan) -> list[str]:
     return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
-def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
+def _yield_trend_rows(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
     """Judge a trend, and yield its table row for each ensemble: common verdict, verdict of the ensemble, probabilities.
 
     A trend with `not_computed` has one row with the verdict "not computed" and probabilities None.

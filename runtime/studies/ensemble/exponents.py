@@ -22,7 +22,7 @@ from gudgeon.language.units import TIME
 from gudgeon.results.batch import Array
 from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
 from gudgeon.simulation.lyapunov import limit_rtol_of_neighbours
-from gudgeon.studies.ensemble.libraries import choose_method
+from gudgeon.studies.ensemble.libraries import get_method_for_scene
 from gudgeon.studies.ensemble.notes import collect_guess_notes
 from gudgeon.studies.ensemble.parameter_values import ROUNDING, check_expression, evaluate_expression_for_runs
 
@@ -44,7 +44,7 @@ MOTION_CODES: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.
 MOTION_CODES_TEXT = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
 
 
-def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
+def check_lyapunov_measures(study: StudyFile, source: KernelSource) -> None:
     """Check a study's measures of neighbouring trajectories: Lyapunov exponents, predictability horizon, kind of
     motion.
 
@@ -170,7 +170,7 @@ class _NeighbourComputation:
             last if end is None else min(end, last),
             section=section,
             skip=max(begin or 0.0, 0.0),
-            method=choose_method(source, settings.method),
+            method=get_method_for_scene(source, settings.method),
             rtol=self.rtol,
             parameters=parameters,
             step=None if table.step is None else float(table.step[i]),

@@ -154,6 +154,6 @@ def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], .
     return simulation
 
 
-def choose_method(source: KernelSource, method: str) -> str:
+def get_method_for_scene(source: KernelSource, method: str) -> str:
     """Return the method for a scene: "auto" for a kinematically driven one (dof = 0), else the method of the study."""
     return method if source.degrees_of_freedom else "auto"

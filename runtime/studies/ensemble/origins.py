@@ -22,7 +22,7 @@ from gudgeon.results.batch import Array, find_evaluation_parts
 from gudgeon.results.results import make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.libraries import choose_method, load_library
+from gudgeon.studies.ensemble.libraries import get_method_for_scene, load_library
 from gudgeon.studies.ensemble.measures import STEP_STATISTICS
 from gudgeon.studies.ensemble.parameter_values import find_parameter_key
 
@@ -197,10 +197,10 @@ def _compute_series_at_samples(
 
 
 def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunKeys:
-    """Return these runs of a job as runs of another scene (`simulation`), with the sample times `times`, one array
-    each.
+    """Return what identifies these runs of a job as runs of another scene (`simulation`): equal keys, equal motions.
 
-    runs: indices in the job. Parameters that the other scene lacks are left out.
+    runs: indices in the job. times: sample times, one array each. Parameters that the other scene lacks are left out,
+    and those that do not affect the motion are 0 in the key. The step is None for a scene without degrees of freedom.
     """
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := find_parameter_key(source, name))}
@@ -280,7 +280,7 @@ def _simulate_series(
             {name: [_to_python_value(values[i]) for i in runs] for name, values in run_keys.columns.items()}
             or [{}] * len(runs),
             output=t[0] if has_common_times else t,
-            method=choose_method(source, job.run_settings.method),
+            method=get_method_for_scene(source, job.run_settings.method),
             rtol=job.run_settings.rtol if is_dynamic else None,
             step=None if run_keys.step is None else run_keys.step[runs],
             threads=job.threads,

@@ -20,10 +20,10 @@ from gudgeon.simulation.arguments import select_method
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Job, RunSettings, RunTable, resolve_wear_model
-from gudgeon.studies.ensemble.exponents import check_neighbour_measures
+from gudgeon.studies.ensemble.exponents import check_lyapunov_measures
 from gudgeon.studies.ensemble.libraries import (
-    choose_method,
     find_study_mechanism,
+    get_method_for_scene,
     iterate_structures,
     list_scenes_to_subtract,
 )
@@ -283,7 +283,7 @@ def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSetting
                 check_expression(source, written, dimension, more)
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
-            check_neighbour_measures(study, source)
+            check_lyapunov_measures(study, source)
     check_constant_settings(study)
     windows = {
         name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
@@ -303,7 +303,7 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
 
     Tolerance and step are ignored in a kinematically driven scene. rtol: the tolerance; None if the study has none.
     """
-    method, where = choose_method(source, str(study.method)), study.method.where
+    method, where = get_method_for_scene(source, str(study.method)), study.method.where
     is_dynamic = bool(source.degrees_of_freedom)
     fixed, rtol = is_dynamic and study.step is not None, rtol if is_dynamic else None
     try:
@@ -358,7 +358,7 @@ def _describe_ineffective_settings(study: StudyFile, sources: Sequence[KernelSou
         if lacking := [scene for scene, source in by_scene.items() if find_parameter(source, str(name)) is None]:
             yield f"{name} is not a parameter of scene {', '.join(lacking)}: its runs do not depend on it"
     if kinematic_scenes := [
-        scene for scene, source in by_scene.items() if choose_method(source, str(study.method)) != study.method
+        scene for scene, source in by_scene.items() if get_method_for_scene(source, str(study.method)) != study.method
     ]:
         names_of_scenes = ", ".join(kinematic_scenes)
         yield f"scene {names_of_scenes} has no degree of freedom: it follows its drives, and method has no effect"

@@ -9,7 +9,7 @@ static int steps_to_change(double stability, int most)
     const Method *method = run.choice.method;
     for (int k = 1; k <= most; k++) {
         store_stiffness_estimate(&run, stability);
-        choose_method(&run, NULL);
+        switch_method_after_step(&run, NULL);
         if (run.choice.method != method)
             return k;
     }

@@ -35,9 +35,9 @@ int main(void)
     while (!is_chattering(&run) && no_advance < 10 * MAX_NO_ADVANCE)
         count_step_end(&run, 0, ++no_advance);
     CHECK(no_advance == MAX_NO_ADVANCE + 1);
-    CHECK(run.progress.ended[0] == no_advance);
+    CHECK(run.progress.n_steps_ended[0] == no_advance);
     count_step_end(&run, -1, 0);
-    CHECK(run.progress.no_advance == 0 && run.progress.ended[N_EVENT_FUNCTIONS] == 1);
+    CHECK(run.progress.no_advance == 0 && run.progress.n_steps_ended[N_EVENT_FUNCTIONS] == 1);
 
     /* steps that lead nowhere */
     int crawls = 0;

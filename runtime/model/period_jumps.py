@@ -1,4 +1,4 @@
-"""Check drives that repeat a curve periodically by `mod`: whether the curve's end continues in its beginning."""
+"""Check periodic drives (a curve repeated by `mod`): whether value or derivatives jump at the end of a period."""
 
 from __future__ import annotations
 
@@ -21,10 +21,12 @@ _ORDERS = ("value", "slope", "second derivative")
 _DRIVE_QUANTITIES = ("it", "its rate", "its acceleration")  # quantities of the drive
 
 
-def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
-    """Yield a note on each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1.
+def iterate_period_jump_warnings(
+    source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf
+) -> Iterator[str]:
+    """Yield a warning for each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1.
 
-    p: parameter values of the run; t0, t1: begin and end of the run (s). Periods that depend on time give no note.
+    p: parameter values of the run; t0, t1: begin and end of the run (s). Periods that depend on time give none.
     """
     for info in list_periodic_drives(source):
         for call in iterate_curve_calls(from_json(json.loads(info.tree))):
@@ -69,13 +71,16 @@ def _describe_jump(call: CurveCall, period: float, drive: str) -> Iterator[str]:
         if not abs(end - begin) <= DERIVATIVE_TOL * largest_value and math.isfinite(end + begin):
             yield (
                 f"drive {drive}: where mod restarts curve {curve.name}, its {derivative_name} jumps from {end:.4g} to"
-                f" {begin:.4g} (SI), and so does {drive_quantity}: {_format_remedy(curve, period, order)}"
+                f" {begin:.4g} (SI), and so does {drive_quantity}: {_format_jump_hint(curve, period, order)}"
             )
             return
 
 
-def _format_remedy(curve: Curve, period: float, order: int) -> str:
-    """Return the remedy, as text, for a jump of the curve's derivative of the given order (0: of its value)."""
+def _format_jump_hint(curve: Curve, period: float, order: int) -> str:
+    """Return the hint for a jump of the curve's derivative of the given order (0: of its value).
+
+    It is only the reason of the jump if mod's period differs from the curve's length, or the curve does not begin at 0.
+    """
     is_curve_length = abs(period - (curve.x[-1] - curve.x[0])) <= DERIVATIVE_TOL * abs(period) and abs(
         curve.x[0]
     ) <= DERIVATIVE_TOL * abs(period)
