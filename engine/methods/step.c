@@ -165,14 +165,10 @@ static void set_last_step_length(Integrator *run, double h) { run->control.last_
 static void discard_stiff_step_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
 /*
- * Restart the count of steps against the explicit method, after an event. Between frequent events, the steps of the
- * stiff method cannot become longer. Does nothing if the run has the stiff method.
+ * Restart the count of unstable steps, after a contact has begun or ended. Between frequent contacts, the steps of the
+ * stiff method cannot become longer.
  */
-static void restart_contrary_steps(Integrator *run)
-{
-    if (run->choice.method == run->choice.explicit && run->choice.n_contrary_steps > 0)
-        run->choice.n_contrary_steps = 0;
-}
+static void restart_unstable_steps(Integrator *run) { run->choice.n_unstable_steps = 0; }
 
 static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 static double *get_end_rounding(Integrator *run); /* methods/taylor.c */

@@ -90,7 +90,7 @@ static void change_method(Integrator *run)
     run->choice.method = stiff ? run->choice.explicit : run->choice.implicit;
     if (!stiff)
         run->choice.mean_length[1] = 0.0;
-    run->choice.n_contrary_steps = 0;
+    run->choice.n_contrary_steps = run->choice.n_unstable_steps = 0;
     run->choice.steps_since_change = 0;
 }
 
@@ -399,7 +399,7 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
     if (is_good && !method->stiff && run->choice.h_rho > method->rejected_h_rho) {
         count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed
-            && ++run->choice.n_contrary_steps >= run->choice.max_contrary_steps)
+            && ++run->choice.n_unstable_steps >= run->choice.max_contrary_steps)
             change_method(run);
         else
             attempt->h *= method->limiting_h_rho / run->choice.h_rho;

@@ -91,7 +91,7 @@ static void toggle_contact(Integrator *run, int joint, double min_speed)
     set_first_step(run, &run->control.after_contact[count_closed_contacts(run)][was_closed], was_closed ? 0.0
         : ONSET_ORDER);
     discard_stiff_step_length(run);
-    restart_contrary_steps(run);
+    restart_unstable_steps(run);
 }
 
 /*
@@ -110,7 +110,6 @@ static void toggle_contact_or_branch(Integrator *run, int event_function, const 
         const int switch_index = event_function - N_CLEARANCES;
         run->discrete.branch[switch_index] *= -1.0;
         set_first_step(run, &run->control.after_switch[switch_index][run->discrete.branch[switch_index] > 0.0], 0.0);
-        restart_contrary_steps(run);
     }
 }
 

@@ -230,6 +230,7 @@ typedef struct {
     double contrary_length; /* s: of the first of the successive steps against the method */
     int automatic; /* whether the run may change between both methods */
     int n_contrary_steps, steps_since_change; /* successive steps against the method; steps since the last change */
+    int n_unstable_steps; /* rejected unstable steps since the last change of a contact or of the method */
     int return_steps, max_contrary_steps; /* steps against the stiff, and the explicit method until the change */
 } MethodChoice;
 

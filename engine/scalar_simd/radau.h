@@ -72,7 +72,7 @@ static const RadauTable RADAU9 = {
  * Compute the coefficients d of the dense output of a step, without accelerations at its ends: the collocation
  * polynomial through its stages. values: those of the stages, the last one the change over the step.
  */
-static void compute_collocation_polynomial(const RadauTable *table, int stages, const Real *const *values,
+static inline void compute_collocation_polynomial(const RadauTable *table, int stages, const Real *const *values,
     Real (*d)[N_Y])
 {
     for (int k = 0; k < RADAU_MAX_STAGES; k++)
@@ -87,7 +87,7 @@ static void compute_collocation_polynomial(const RadauTable *table, int stages, 
 }
 
 /* Compute the state y (N_Y) at fraction s of a step from y0 at its beginning and the dense output d of degree 5. */
-static void evaluate_collocation_polynomial(const Real *y0, const Real (*d)[N_Y], double s, Real *y)
+static inline void evaluate_collocation_polynomial(const Real *y0, const Real (*d)[N_Y], double s, Real *y)
 {
     const double r = 1.0 - s;
     for (int i = 0; i < N_Y; i++)

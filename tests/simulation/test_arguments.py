@@ -217,7 +217,7 @@ def test_columns_of_what_is_no_number(column: Any) -> None:
     pendulum = gudgeon.load("pendulum")
     with pytest.raises(BadValueError, match=r"run [01]: parameters\.g"):
         pendulum.simulate_many({"g": column}, 0.01)
-    with pytest.raises(BadValueError, match="truths"):
+    with pytest.raises(BadValueError, match="booleans"):
         final = pendulum.simulate(0.01).final
         pendulum.simulate(0.02, start=replace(final, v=np.ones(len(final.v), bool)))
     for least in (5e-324, "5e-324"):

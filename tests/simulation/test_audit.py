@@ -247,7 +247,7 @@ def test_a_dense_output_that_is_wrong(tmp_path: Path) -> None:
         press,
         tmp_path,
         (
-            "engine/methods/radau.c",
+            "engine/scalar_simd/radau.h",
             "r * (d[1][i] + s * (d[2][i]",
             "r * (1.01 * d[1][i] + s * (d[2][i]",
         ),

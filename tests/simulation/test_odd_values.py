@@ -450,7 +450,7 @@ def test_a_state_that_contradicts_itself(code: int, rate: float, message: str) -
     [
         (["map", "slider_crank", "--scene", "dry", "--axis", "c=1..2:0"], "a whole number of values after ':'"),
         (["map", "slider_crank", "--scene", "dry", "--axis", "c=1..2:"], "a whole number of values after ':'"),
-        (["map", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "only a range"),
+        (["map", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "after a range low..high only"),
         (["bench", "pendulum", "--methods", ""], "--methods '': expected names of methods"),
         (["bench", "pendulum", "--methods", " , "], "expected names of methods"),
         *[
