@@ -100,12 +100,12 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
         known[dots_apart("δ̇") + "⁻"] = STATES["deltadot"] / STATES["ratio"]
     first, *others = derive_forms(law, name)
     for form in (first, *others):
-        changed = ((), ()) if form is first else (form.constants, form.steps)
+        changed = ((), ()) if form is first else (form.constants, form.evaluated)
         letters = {
             make_name_from_latex(own.symbol).text for own in law.parameters if form.selected.get(own.name) == GIVEN
         }
         constants = [one for one in first.constants if one.left.text not in letters]  # what is given follows from none
-        read = evaluate([*merged(constants, changed[0]), *merged(first.steps, changed[1])], known)
+        read = evaluate([*merged(constants, changed[0]), *merged(first.evaluated, changed[1])], known)
         selected = dict(law.also.get(name, {})) | {key: x for key, x in form.selected.items() if x != GIVEN}
         given = {
             own.name: numbers[own.name]
