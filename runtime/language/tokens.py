@@ -144,7 +144,9 @@ class Tokenizer:
         for part in name.split("."):
             if part.startswith("_") or "__" in part:
                 self.raise_error(
-                    f"{part!r} is not a valid name", offset, "attributes of Python objects are not accessible: use names of the file"
+                    f"{part!r} is not a valid name",
+                    offset,
+                    "attributes of Python objects are not accessible: use names of the file",
                 )
             offset += len(part) + 1
 
