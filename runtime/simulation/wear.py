@@ -210,7 +210,7 @@ class WearObserver:
         is_finite = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
         begin, end = (np.clip(x.t[rows], self.requested.begin, self.requested.end) for rows in (k, k + 1))
         is_loaded = (
-            path.is_within_step[k]
+            ~x.is_after_jump[k + 1]  # short intervals count too: rounding of positions changes slip and force little
             & (x.state[k, self.joint_index] > 0)
             & is_finite[k]
             & is_finite[k + 1]

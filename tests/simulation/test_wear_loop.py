@@ -123,6 +123,16 @@ def test_what_cannot_wear_is_refused(tmp_path: Path) -> None:
 
 
 @needs_compiler
+@pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p", "radau5"])
+def test_a_contact_at_rest_wears_with_every_method(method: str, tmp_path: Path) -> None:
+    """V = k m g ω R_j t/H; with explicit methods, small speeds remain in directions that should rest."""
+    simulation = written(TURNING, tmp_path / "rig.yaml")
+    run = simulation.simulate(0.1, output=5, method=method, parameters={"of_ring": 0.0, "of_pin": 2.0})
+    worn = gudgeon.wear(simulation, run, "J", k=1e-4, hardness=2e9).bearing.volume
+    assert worn == pytest.approx(1e-4 / 2e9 * M * G * 2.0 * (R - C) * 0.1, rel=2e-3)
+
+
+@needs_compiler
 def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
     """Scenes with a contour wear before the run that is measured, as the loop makes them; another one does not."""
     simulation = written(TURNING, tmp_path / "rig.yaml")
