@@ -47,7 +47,7 @@ CALLED = (
     "kinematic_begin",
     "kinematic_restart",
     "kinematic_progress",
-    "kinematic_record",
+    "kinematic_set_recording",
     "kinematic_recorded",
     "kinematic",
     "kinematic_works",
