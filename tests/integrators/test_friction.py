@@ -150,7 +150,7 @@ def test_friction_of_what_a_drive_holds_at_rest_is_noted(tmp_path: Path) -> None
     run = block.simulate(1.0, output=100)
     (note,) = [note for note in run.diagnostics.notes if "rub" in note]
     assert "hold friction rub at rest from t = 0 s on" in note and "not determined" in note
-    assert (run["rub.mode"][:20] == 2).all() and "2 at rest" in run.meaning("rub.mode")
+    assert (run["rub.mode"][:20] == 2).all() and "2 held at rest" in run.meaning("rub.mode")
     late = block.simulate(output=np.linspace(0.25, 0.5, 26))
     (note,) = [note for note in late.diagnostics.notes if "rub" in note]
     assert "from t = 0.4 s on, in 11 of 26 samples" in note
