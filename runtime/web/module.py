@@ -48,7 +48,6 @@ CALLED = (
     "kinematic_restart",
     "kinematic_progress",
     "kinematic_set_recording",
-    "kinematic_recorded",
     "kinematic",
     "kinematic_works",
     "kinematic_events",
