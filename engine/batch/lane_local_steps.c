@@ -186,8 +186,8 @@ static void load_lane_local_steps(
     LocalStepLimits limits;
     single->get_local_step_limits(run, batch->p_motion + i * batch->numbers, &limits);
     local_steps->steps[k] = 0;
-    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.was_rejected
-        || (run->control.attempt.lane == BY_TAYLOR) != LANE_SERIES ? 0 : limits.max_steps;
+    local_steps->max_local_steps[k] =
+        (run->control.attempt.lane == BY_TAYLOR) == LANE_SERIES ? limits.max_steps : 0;
     local_steps->may_accept[k] = -(local_steps->max_local_steps[k] > 0);
     local_steps->has_state[k] = local_steps->max_local_steps[k] > 0;
     if (!local_steps->has_state[k])

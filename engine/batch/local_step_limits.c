@@ -31,8 +31,8 @@ static int are_end_checks_recorded(const Integrator *run)
 }
 
 /*
- * Return whether the next step of a run is an ordinary one: the first attempt, not the first step after an event, no
- * closed contact, no suppressed switching point, no singular position, no comparison of both methods.
+ * Return whether the next step of a run is an ordinary one: not the first step after an event, no closed contact, no
+ * suppressed switching point, no singular position, no comparison of both methods.
  */
 static int is_ordinary_step(const Integrator *run)
 {
@@ -47,8 +47,8 @@ static int is_ordinary_step(const Integrator *run)
             || (choice->steps_since_change < MAX_COMPARE_STEPS && run->control.h_stiff > 0.0);
     const int is_regular = run->near.n_undetected == 0 && run->near.n_failed == 0
         && run->discrete.singular_policy == SINGULAR_CONTINUE;
-    return !run->control.attempt.was_rejected && !run->control.first && run->roots.suppressed_switch < 0 && is_regular
-        && !is_compared && run->control.fixed <= 0.0 && run->counts.steps > 1 && run->discrete.is_frozen;
+    return !run->control.first && run->roots.suppressed_switch < 0 && is_regular && !is_compared
+        && run->counts.steps > 1 && run->discrete.is_frozen;
 }
 
 /*
@@ -75,15 +75,19 @@ static long count_steps_of_any_length(const Integrator *run)
 }
 
 /*
- * Set the limits of the next steps of a run, and their largest number. p: parameters of the run. A step by Taylor
- * series needs that number only.
+ * Set the limits of the next steps of a run, and their largest number: 0 with fixed steps and after a rejected attempt.
+ * p: parameters of the run. A step by Taylor series needs that number only.
  */
 static void get_local_step_limits(const void *integrator, const double *parameters, LocalStepLimits *local)
 {
     const Integrator *run = integrator;
     const Method *method = run->choice.method;
     const Parameters *p = (const Parameters *)parameters;
-    local->max_steps = run->control.attempt.lane == BY_TAYLOR ? count_steps_before_call(run) : 0;
+    local->max_steps = 0;
+    if (run->control.fixed > 0.0 || run->control.attempt.was_rejected)
+        return;
+    if (run->control.attempt.lane == BY_TAYLOR)
+        local->max_steps = count_steps_before_call(run);
     if (run->control.attempt.lane == BY_TAYLOR || !is_ordinary_step(run) || !are_end_checks_recorded(run))
         return;
     const long steps = count_steps_before_call(run), compared_steps = count_steps_before_comparison(run);
