@@ -164,30 +164,16 @@ SWAPS = {
 MEANS_NOTHING = {
     "generator/equations/geometry.py:39: '1' -> '2': ZERO, ONE = sp.Integer(0), sp.Integer(1)": "masses in place of none: another metric, in which a linkage without freedom closes to the same position",
     "generator/equations/geometry.py:35: '0' -> '1': opposite_name is not None and local_vector[0].could_extract_minus_sign()": "which of two opposite arms has symbols, the other being their negatives",
-    "generator/equations/geometry.py:40: '+' -> '-': number = 1 if point else 1 + sum(1 for _ in earlier)": "how documents number the arms of a body",
     "generator/solvers/kkt.py:32: '0' -> '1': threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]": "EARLY is more than either share",
-    "generator/solvers/kkt.py:93: 'and' -> 'or': if row.owner == other.owner and r not in pairs and pattern[r] == "
-    "pattern[r + 1] and len(pattern[r]) > 2:": "which rows are eliminated two by two: an order, what it costs",
-    "generator/reduction/geometry.py:16: 'not' -> '': if not self.is_short(rates[i]):": "what is short gets a name of its own, and the same value",
-    "runtime/assembly/closure.py:66: '4' -> '5': for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):": "how many starts are tried",
-    "generator/kernels/dynamics.py:73: '0' -> '1': b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != "
-    "0}": "a force that is 0 is written as 0",
-    "generator/reduction/geometry.py:99: '1' -> '2': parent, child, sign = (first, second, 1) if second.body == body "
-    "else (second, first, -1)": "a slide's coordinate in another unit: the same motion",
-    "generator/reduction/tree.py:46: '+' -> '-': depth_of_body[other] = depth_of_body[body] + 1": "where chains are cut, so which trees are among the candidates",
-    "runtime/assembly/guess_warnings.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away": "the same remainder",
-    "runtime/model/arrays.py:91: 'not' -> '': elif type(values) is np.ndarray and values.dtype is dtype and "
-    "values.size <= most and not values.flags.c_contiguous:": "which of two ways an array is copied on",
+    "generator/kernels/dynamics.py:73: '0' -> '1': b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}": "a force that is 0 is written as 0",
+    "generator/reduction/geometry.py:99: '1' -> '2': parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)": "a slide's coordinate in another unit: the same motion",
     "generator/reduction/shared_points.py:63: '1' -> '2': signs[other.name] = 1 if first in connected else -1": "of a share only the sign is printed",
-    "generator/reduction/tree.py:12: '24' -> '25': _MAX_COORDINATES_FOR_EXCHANGE = 24  # more coordinates than that: the tree is not "
-    "improved by exchanges": "which tree is taken: every tree has the same motion",
-    "generator/reduction/tree.py:48: '1' -> '2': depth_of_body[other] = depth_of_body[body] + 1": "where chains are cut, so which trees are among the candidates",
-    "generator/reduction/geometry.py:37: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
-    "value.is_Number)": "what is short gets a name of its own, and the same value",
-    "generator/reduction/geometry.py:59: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
-    "value.is_Number)": "the same",
-    "generator/reduction/geometry.py:60: '+' -> '-': rates[i] = self.motions.named_rate(names[2 + i], rates[i], "
-    "point_columns)": "only a name",
+    "runtime/assembly/closure.py:99: '4' -> '5': for _ in range((N_RANDOM_STARTS if len(guess) <= MANY_COORDINATES else N_RANDOM_STARTS // 4) // 2):": "how many starts are tried",
+    "generator/reduction/tree.py:64: '+' -> '-': depth_of_body[neighbour] = depth_of_body[body] + 1": "where chains are cut, so which trees are among the candidates",
+    "generator/reduction/tree.py:66: '1' -> '2': depth_of_body[neighbour] = depth_of_body[body] + 1": "where chains are cut, so which trees are among the candidates",
+    "runtime/assembly/guess_warnings.py:38: '+' -> '-': difference = (difference + np.pi) % (2.0 * np.pi) - np.pi if is_angle else difference": "the same remainder",
+    "generator/reduction/tree.py:33: '24' -> '25': _MAX_COORDINATES_FOR_EXCHANGE = 24  # free angles of a tree that exchanges of joints may improve": "which tree is taken: every tree has the same motion",
+    "runtime/model/arrays.py:13: 'not' -> '': and not values.flags.c_contiguous": "which of two ways an array is copied on",
 }
 COEFFICIENT = re.compile(r"\d\.\d{12,}")
 

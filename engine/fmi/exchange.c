@@ -266,7 +266,11 @@ FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
 /* Return fmi3OK if n is the expected number of values; otherwise log an error and return fmi3Error. */
 static fmi3Status check_value_count(const Model *model, size_t n, size_t expected)
 {
-    return n == expected ? fmi3OK : log_error_with_status(model, "wrong number of values", (int)n);
+    char text[100];
+    if (n == expected)
+        return fmi3OK;
+    snprintf(text, sizeof text, "%zu values were given, expected %zu", n, expected);
+    return log_error(model, text);
 }
 
 /* Set the integrated state x, n = N_Y values (FMI 3). Outputs are evaluated again when needed. */

@@ -54,7 +54,11 @@ def _format_domain(function: Function) -> str:
     low, high = function.domain
     if math.isinf(low) and math.isinf(high):
         return ""
-    return f"x ≥ {low:g}" if math.isinf(high) else f"{low:g} ≤ x ≤ {high:g}".replace("-", "−")
+    bounds = (f"{bound:g}".replace("-", "−") for bound in (low, high))
+    lower, upper = ("" if math.isinf(bound) else text for bound, text in zip((low, high), bounds, strict=True))
+    if not upper:
+        return f"x ≥ {lower}"
+    return f"{lower} ≤ x ≤ {upper}" if lower else f"x ≤ {upper}"
 
 
 def _print_mapping_tables(heading: str, mapping: Field, path: str, printed_names: set[str]) -> Iterator[str]:

@@ -428,14 +428,6 @@ class CompiledModel:
         return self.pointer(array, is_written=True)
 
 
-def _find_row_index(source: KernelSource, row: str) -> int:
-    """Return the index of a constraint equation, by its name, in source.start_rows.
-
-    Raises StopIteration for another name.
-    """
-    return next(k for k, info in enumerate(source.start_rows) if info.name == row)
-
-
 def describe_mass_ratio(source: KernelSource, mass: NDArray[Any]) -> str:
     """Return a text on masses or inertias whose ratio is too large for doubles; "" if there are none.
 

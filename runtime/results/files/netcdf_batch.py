@@ -399,7 +399,8 @@ def read_times(long_tables: LongTables, n_runs: int, has_times_by_run: bool) -> 
         return t
     for i in range(n_runs):
         netcdf.check_times(t[long_tables.begins[TIMES][i] : long_tables.begins[TIMES][i + 1]])
-    return _unroll_column(long_tables, TIMES, t, n_runs, max(long_tables.count_rows(TIMES, i) for i in range(n_runs)))
+    n_columns = max((long_tables.count_rows(TIMES, i) for i in range(n_runs)), default=0)
+    return _unroll_column(long_tables, TIMES, t, n_runs, n_columns)
 
 
 def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_columns: int) -> Array:
