@@ -6,7 +6,7 @@
  * the inside of steps. The audit changes only its own record.
  */
 #define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
-#define AUDIT_MAX_DEPTH 10.0       /* tolerances that an open joint may penetrate */
+#define AUDIT_MAX_DEPTH 10.0       /* tolerances: allowed violation of a gap, or of a slip in its mode */
 #define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
@@ -378,15 +378,15 @@ static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
 /*
  * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
  * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
- * AUDIT_MAX_DEPTH tolerances of the largest speed, at least AT_REST. In stick the force exceeds its static limit by at
- * most AUDIT_FORCE of the limit there or at the beginning. Called when check_rigid_forces() is, which states why times
- * just after the beginning are omitted.
+ * AUDIT_MAX_DEPTH times the larger of AT_REST and the tolerance of the largest speed. In stick the force exceeds its
+ * static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called when check_rigid_forces() is, which
+ * states why times just after the beginning are omitted.
  */
 static void check_friction_modes(Integrator *run, double t, const RhsOutputs *rhs)
 {
 #if N_FRICTIONS
     const double speed = max_of(run->norm.speed[0], get_mechanism_size(run) * run->norm.speed[1]);
-    const double min_slip = max_of(AT_REST, AUDIT_MAX_DEPTH * get_audit_tolerance(run) * speed);
+    const double min_slip = AUDIT_MAX_DEPTH * max_of(AT_REST, get_audit_tolerance(run) * speed);
     const double location_tolerance = compute_event_location_tolerance(run);
     for (int i = 0; i < N_FRICTIONS && t > run->t + location_tolerance; i++) {
         const Friction *friction = &rhs->friction[i];
