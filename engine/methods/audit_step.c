@@ -1,6 +1,6 @@
 /*
  * Independent checks of a run within its steps (run/audit.c): at random points, at events, and in long steps. Checks:
- * defect of the dense output, gaps, branches. At random points in addition: all constraint equations, accelerations by
+ * defect of the dense output, discrete states. At random points in addition: all constraint equations, accelerations by
  * the equations of all bodies, film forces.
  */
 #define AUDIT_LENGTH_RATIO 8.0 /* times the step before: longer steps are always checked */
@@ -125,8 +125,8 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
  * with step-size control, the rates of the dense output are compared with dy (compute_scaled_defect()) and recorded as
  * CHECK_defect; a failure at a jump of a drive is not recorded.
  *
- * At random points (`is_random`) of scenes without play, check_dense_output_rates() compares them too. Film forces,
- * gaps, forces and modes of friction, and frozen branches are always checked.
+ * At random points (`is_random`) of scenes without play, check_dense_output_rates() compares them too. Film forces
+ * and the conditions of discrete states are always checked.
  */
 static void check_interior_state(Integrator *run, Step *step, double theta, int is_random, const double *y,
     const double *dy, const RhsOutputs *rhs, const Parameters *p)

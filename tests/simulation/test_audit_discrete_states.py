@@ -48,8 +48,8 @@ def settings(method: str, step: float) -> dict[str, object]:
 
 @pytest.mark.parametrize(
     "condition",
-    [CLOSED, f"{CLOSED} && {THIRD}", THIRD],
-    ids=["separations", "every third separation", "every third onset and separation"],
+    [CLOSED, THIRD],
+    ids=["separations", "every third onset and separation"],
 )
 def test_contacts_whose_end_is_missed(
     condition: str, right: Simulation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -100,8 +100,6 @@ def test_phases_of_laws_whose_end_is_missed(condition: str, tmp_path: Path) -> N
 QUIET = (
     ("nine_bar_press", "dry", 0.05, 1e-5),
     ("nine_bar_press", "lubricated", 0.05, 1e-5),
-    ("slider_crank", "dry", 0.03, 1e-5),
-    ("flores_slider_crank", "internal", 0.01, 1e-5),
     ("guided_slider_crank", "elastic", 0.02, 1e-5),
     ("guided_slider_crank", "hard", 0.05, 1e-5),
     ("bouncing_ball", "damped", 2.0, 1e-5),
@@ -109,7 +107,7 @@ QUIET = (
 )
 
 
-@pytest.mark.parametrize(("name", "scene", "t_end", "step"), QUIET, ids=[f"{name} {scene}" for name, scene, *_ in QUIET])
+@pytest.mark.parametrize(("name", "scene", "t_end", "step"), QUIET)
 def test_right_runs_hold_the_conditions_of_their_states(name: str, scene: str, t_end: float, step: float) -> None:
     """Contacts that separate, graze and rest, and sticking friction, with drawn tolerances, steps and parameters."""
     rng = np.random.default_rng(sum(map(ord, name + scene)))
