@@ -16,7 +16,7 @@
 #define AUDIT_NOISE_FRACTION 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO_FRACTION 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
 #define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
-#define AUDIT_FORCE 1e-3             /* of a force: allowed error of a force that ends a contact or stick */
+#define AUDIT_FORCE 1e-3       /* of a force: allowed error of a force that ends a contact or stick */
 #define AUDIT_FIXED_STEP_TOL 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
 enum { AUDIT_WRONG_STEPS = 3, AUDIT_MIN_STEPS = 20 };
@@ -379,8 +379,8 @@ static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
  * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
  * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
  * AUDIT_MAX_DEPTH times the larger of AT_REST and the tolerance of the largest speed. In stick the force exceeds its
- * static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called when check_rigid_forces() is, which
- * states why times just after the beginning are omitted.
+ * static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with check_rigid_forces(), and
+ * omitted at the same times.
  */
 static void check_friction_modes(Integrator *run, double t, const RhsOutputs *rhs)
 {

@@ -8,8 +8,8 @@
 #include "audit.h"
 
 /*
- * Rows that a step may append to the list of contacts for each joint with play. Compliant contacts: one separation. Rigid
- * ones: at the event and at a jump of a drive, N_LISTED_PASSES + 1 = 9 impacts and two separations (run/impacts.c).
+ * Rows that a step may append to the list of contacts for each joint with play. Compliant: one separation. Rigid: at
+ * the event and at a jump of a drive, N_LISTED_PASSES + 1 = 9 impacts and two separations (run/impacts.c).
  */
 #if N_RIGID
 enum { MAX_CONTACTS_PER_STEP = 22 };
