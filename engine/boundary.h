@@ -44,8 +44,8 @@ enum AuditLevel { AUDIT_OFF, AUDIT_ON, AUDIT_FULL };
 /* Checks of the audit: each compares a value of an accepted step with its limit. */
 enum AuditCheck {
     CHECK_defect,       /* the dense output against the right-hand side, between the ends of a step */
-    CHECK_gap,          /* penetration of a joint whose contact is open */
-    CHECK_free,         /* force in a joint whose contact is open */
+    CHECK_gap,          /* penetration of a joint, against the state of its contact */
+    CHECK_free,         /* force of a joint, against the state of its contact */
     CHECK_position,     /* all constraint equations Phi = 0 of all bodies */
     CHECK_velocity,     /* all velocity constraints Phi_q v - nu = 0 of all bodies */
     CHECK_acceleration, /* accelerations of the reduced formulation against those of the full one */
@@ -54,6 +54,7 @@ enum AuditCheck {
     CHECK_force,        /* film forces against the accelerations of the dense output */
     CHECK_rate,         /* rates of the dense output, relative to the largest rate, for any step length */
     CHECK_step,         /* local error of a step from the integral of the defect of the dense output */
+    CHECK_mode,         /* slip or force of a friction element, against its mode */
     N_CHECKS
 };
 

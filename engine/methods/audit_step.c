@@ -1,6 +1,6 @@
 /*
  * Independent checks of a run within its steps (run/audit.c): at random points, at events, and in long steps. Checks:
- * defect of the dense output, gaps, branches. At random points in addition: all constraint equations, accelerations by
+ * defect of the dense output, discrete states. At random points in addition: all constraint equations, accelerations by
  * the equations of all bodies, film forces.
  */
 #define AUDIT_LENGTH_RATIO 8.0 /* times the step before: longer steps are always checked */
@@ -125,8 +125,8 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
  * with step-size control, the rates of the dense output are compared with dy (compute_scaled_defect()) and recorded as
  * CHECK_defect; a failure at a jump of a drive is not recorded.
  *
- * At random points (`is_random`) of scenes without play, check_dense_output_rates() compares them too. Film forces,
- * open gaps and frozen branches are always checked.
+ * At random points (`is_random`) of scenes without play, check_dense_output_rates() compares them too. Film forces
+ * and the conditions of discrete states are always checked.
  */
 static void check_interior_state(Integrator *run, Step *step, double theta, int is_random, const double *y,
     const double *dy, const RhsOutputs *rhs, const Parameters *p)
@@ -140,7 +140,9 @@ static void check_interior_state(Integrator *run, Step *step, double theta, int 
     if (is_random && has_step_size_control(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
         check_dense_output_rates(run, step, t, y, rate, dy, p);
     check_film_forces(run, step, t, rhs, rate, dy, p);
-    check_open_gaps(run, t, rhs, p);
+    check_gaps(run, t, rhs, p);
+    check_rigid_forces(run, t, rhs);
+    check_friction_modes(run, t, rhs);
     check_frozen_branches(run, step, t, y, rhs, p);
 }
 
@@ -274,6 +276,10 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
     const int is_measured = checks_all || is_longer || (is_due && by_turn);
     const int n_points = checks_all ? AUDIT_POINTS_PER_STEP : is_random || (is_longer && !is_whole);
     check_event_zeros(run, step, fraction, event, p);
+    if (fraction >= 1.0) {
+        check_rigid_forces(run, step->t + h, &step->rhs);
+        check_friction_modes(run, step->t + h, &step->rhs);
+    }
     const int has_end_event = event >= 0 && fraction < 1.0;
     const int is_known = has_end_event && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
     if (is_known)

@@ -6,7 +6,7 @@
  * the inside of steps. The audit changes only its own record.
  */
 #define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
-#define AUDIT_MAX_DEPTH 10.0       /* tolerances that an open joint may penetrate */
+#define AUDIT_MAX_DEPTH 10.0       /* tolerances: allowed violation of a gap, or of a slip in its mode */
 #define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
@@ -16,6 +16,7 @@
 #define AUDIT_NOISE_FRACTION 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO_FRACTION 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
 #define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
+#define AUDIT_FORCE 1e-3       /* of a force: allowed error of a force that ends a contact or stick */
 #define AUDIT_FIXED_STEP_TOL 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
 enum { AUDIT_WRONG_STEPS = 3, AUDIT_MIN_STEPS = 20 };
@@ -256,28 +257,34 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Check that joints whose contact is open have no penetration beyond their limit at a state with outputs `rhs`, and
- * record CHECK_gap. Closed contacts are skipped. Penetrations up to AUDIT_GRAZE count as zero; the limit contains the
- * error of event location. Runs with steps of fixed length are not checked. Called at the end of each step and at
- * states inside selected steps.
+ * Return the error in m that the tolerance, rounding and the location of events at time t (s) allow for the penetration
+ * of a joint, whose values there are `clearance`. Limit of the check of gaps.
  */
-static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
+static double compute_gap_limit(const Integrator *run, double t, const Clearance *clearance, int joint,
+    const Parameters *p)
 {
-    for (int i = 0; i < N_CLEARANCES && has_step_size_control(run); i++) {
+    const double location_error = 4.0 * (run->roots.time_resolution
+        + 8.0 * DBL_EPSILON * fabs(t)) * fabs(clearance->deltadot);
+    const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
+    const double rounding = max_of(1e-9 * radial_clearance(p, joint), min_rounding);
+    return max_of(AUDIT_MAX_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding) + location_error;
+}
+
+/*
+ * Check the gap of each joint with play against the state of its contact, at a state with outputs `rhs`, and record
+ * CHECK_gap: open contacts have no penetration, closed ones of compliant surfaces no gap, closed ones of rigid surfaces
+ * neither. Values up to AUDIT_GRAZE count as zero. Called at the end of each step and at states inside selected steps.
+ */
+static void check_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &rhs->clearance[i];
-        if (run->discrete.contact[i].closed)
-            continue;
-        if (joint->delta <= AUDIT_GRAZE) {
+        const double violation = !run->discrete.contact[i].closed ? joint->delta
+            : is_compliant(i) ? -joint->delta : fabs(joint->delta);
+        if (violation <= AUDIT_GRAZE)
             record_check(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
-            continue;
-        }
-        const double location_error = 4.0 * (run->roots.time_resolution
-            + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
-        const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
-        const double rounding = max_of(1e-9 * radial_clearance(p, i), min_rounding);
-        const double limit = max_of(AUDIT_MAX_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding)
-            + location_error;
-        record_check(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
+        else
+            record_check(&run->audit, CHECK_gap, violation, compute_gap_limit(run, t, joint, i, p), t, i);
     }
 }
 
@@ -351,4 +358,48 @@ static void check_forces_of_open_joints(Integrator *run)
         if (!run->discrete.contact[i].closed && is_compliant(i) && !has_film(i))
             record_check(&run->audit, CHECK_free, compute_force_magnitude(&run->rhs.clearance[i]),
                 max_of(1e-6 * run->contacts.F_peak[i], 1e-300), run->t, i);
+}
+
+/*
+ * Check the forces of closed contacts of rigid surfaces at time t (s) of the step from run->t, with outputs `rhs`, and
+ * record CHECK_free: they do not pull. The limit is AUDIT_FORCE of the force there or at the beginning. Called at the
+ * end of each step and at states inside selected steps. Times just after the beginning are not checked: forces may have
+ * jumped at the event there, and the next event then follows at once.
+ */
+static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
+{
+    for (int i = 0; i < N_CLEARANCES && t > run->t + compute_event_location_tolerance(run); i++) {
+        const double F_n = rhs->clearance[i].F_n, scale = max_of(fabs(run->rhs.clearance[i].F_n), fabs(F_n));
+        if (!is_compliant(i) && run->discrete.contact[i].closed)
+            record_check(&run->audit, CHECK_free, max_of(F_n, 0.0), max_of(AUDIT_FORCE * scale, 1e-300), t, i);
+    }
+}
+
+/*
+ * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
+ * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
+ * AUDIT_MAX_DEPTH times the larger of AT_REST and the tolerance of the largest speed. In stick the force exceeds its
+ * static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with check_rigid_forces(), and
+ * omitted at the same times.
+ */
+static void check_friction_modes(Integrator *run, double t, const RhsOutputs *rhs)
+{
+#if N_FRICTIONS
+    const double speed = max_of(run->norm.speed[0], get_mechanism_size(run) * run->norm.speed[1]);
+    const double min_slip = AUDIT_MAX_DEPTH * max_of(AT_REST, get_audit_tolerance(run) * speed);
+    const double location_tolerance = compute_event_location_tolerance(run);
+    for (int i = 0; i < N_FRICTIONS && t > run->t + location_tolerance; i++) {
+        const Friction *friction = &rhs->friction[i];
+        const double mode = run->discrete.mode[i], v = friction->v;
+        const double static_limit = max_of(friction->static_limit, run->rhs.friction[i].static_limit);
+        const int has_slip = mode == 1.0 || mode == -1.0;
+        record_check(&run->audit, CHECK_mode, has_slip ? max_of(-mode * v, 0.0) : fabs(v),
+            min_slip + location_tolerance * fabs(friction->rate), t, i);
+        if (mode == 0.0)
+            record_check(&run->audit, CHECK_mode, max_of(fabs(friction->force) - friction->static_limit, 0.0),
+                max_of(AUDIT_FORCE * static_limit, 1e-300), t, i);
+    }
+#else
+    (void)run, (void)t, (void)rhs;
+#endif
 }

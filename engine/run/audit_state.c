@@ -31,8 +31,7 @@ static void check_user_event(Integrator *run, int event, int n_events_before)
  * Check the frozen branches at the end of a step: count the successive steps that each switching function ends on the
  * wrong branch by more than 0.001 of its largest magnitude. Any other step restarts the count. After AUDIT_WRONG_STEPS
  * such steps, CHECK_branch is recorded with the limit 1e-4 of that magnitude, if the value exceeds its uncertainty.
- * Suppressed functions and functions that are continuous at their switching point (`is_continuous_switch`) are not
- * counted. Updates the largest magnitudes of the functions.
+ * Suppressed functions are not counted. Updates the largest magnitudes of the functions.
  */
 static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 {
@@ -49,7 +48,7 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
         return;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.suppressed_switch || is_continuous_switch[k]) {
+        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.suppressed_switch) {
             audit->n_wrong_steps[k] = 0;
             continue;
         }
@@ -71,7 +70,7 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
     if (!audit->level)
         return 0;
     check_constraint_residuals(run);
-    check_open_gaps(run, run->t, &run->rhs, p);
+    check_gaps(run, run->t, &run->rhs, p);
 #if N_DEPENDENT
     double absolute_state[N_S];
     convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);

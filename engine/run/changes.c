@@ -75,42 +75,46 @@ static int count_closed_contacts(const Integrator *run)
 
 /*
  * Open the contact of a joint if it is closed, else close it, at the current time. min_speed: smallest stored approach
- * speed, m/s.
+ * speed, m/s. Return 0, or CHATTERING if the list of contacts is full.
  *
  * Also set the length of the next step to the one stored for this kind of event: by number of closed contacts, onset or
  * separation. The stored length of the stiff method is discarded. Called at the zero of the event function of a
  * compliant contact.
  */
-static void toggle_contact(Integrator *run, int joint, double min_speed)
+static int toggle_contact(Integrator *run, int joint, double min_speed)
 {
     const int was_closed = run->discrete.contact[joint].closed;
+    int status = 0;
     if (was_closed)
-        open_contact(run, joint, run->t);
+        status = open_contact(run, joint, run->t);
     else
         close_contact(run, joint, run->t, run->rhs.clearance[joint].deltadot, min_speed);
     set_first_step(run, &run->control.after_contact[count_closed_contacts(run)][was_closed], was_closed ? 0.0
         : ONSET_ORDER);
     discard_stiff_step_length(run);
     restart_unstable_steps(run);
+    return status;
 }
 
 /*
  * Apply the change of an event function that reached zero: the contact of a joint with compliant surfaces begins or
  * ends, or a switching function changes its branch. Also set the length of the next step to the one stored for this
  * kind of event. Rigid contacts change in update_contacts(). Functions of friction and user-defined events change
- * nothing here. Called by apply_event() for each function that has reached zero.
+ * nothing here. Return 0 or the status of toggle_contact(). Called by apply_event() for each function that has reached
+ * zero.
  */
-static void toggle_contact_or_branch(Integrator *run, int event_function, const Parameters *p)
+static int toggle_contact_or_branch(Integrator *run, int event_function, const Parameters *p)
 {
     if (event_function < N_CLEARANCES && !is_compliant(event_function))
-        return; /* update_contacts() changes all rigid contacts */
+        return 0; /* update_contacts() changes all rigid contacts */
     if (event_function < N_CLEARANCES)
-        toggle_contact(run, event_function, min_approach_speed(p, event_function));
-    else if (event_function < N_CLEARANCES + N_SWITCHES) {
+        return toggle_contact(run, event_function, min_approach_speed(p, event_function));
+    if (event_function < N_CLEARANCES + N_SWITCHES) {
         const int switch_index = event_function - N_CLEARANCES;
         run->discrete.branch[switch_index] *= -1.0;
         set_first_step(run, &run->control.after_switch[switch_index][run->discrete.branch[switch_index] > 0.0], 0.0);
     }
+    return 0;
 }
 
 /*
@@ -284,15 +288,17 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
     memcpy(branches_before, run->discrete.branch, sizeof branches_before);
     for (int i = 0; i < N_USER_EVENTS; i++)
         values_before[i] = run->rhs.event[i];
-    for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
+    int status = 0;
+    for (int k = 0; k < N_CLEARANCES + N_SWITCHES && !status; k++)
         if (k == event
             || (k < N_CLEARANCES
                 && compute_event_value(&run->discrete, &run->rhs, k) < compute_gap_event_threshold(p, k)))
-            toggle_contact_or_branch(run, k, p);
+            status = toggle_contact_or_branch(run, k, p);
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;
-    int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p)
-        : update_branches_at_current_state(run, -1, p);
+    if (!status)
+        status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p)
+            : update_branches_at_current_state(run, -1, p);
     if (!status && switch_index >= 0)
         status = update_branches_after_event(run, friction < 0 ? switch_index : -1, p);
     if (!status)

@@ -138,14 +138,14 @@ static void close_contact(Integrator *run, int joint, double t, double deltadot,
 
 /*
  * End the contact of a joint with compliant surfaces at time t (s), reset the internal states of its laws, and append
- * the contact to the list that Python fetches. A full list drops it without a status.
+ * the contact to the list that Python fetches. Return 0, or CHATTERING if the list is full.
  */
-static void open_contact(Integrator *run, int joint, double t)
+static int open_contact(Integrator *run, int joint, double t)
 {
     run->discrete.contact[joint].closed = 0;
     reset_internal_states(run, joint);
     run->contacts.lasting[joint].t_off = t;
-    append_contact(run, &run->contacts.lasting[joint]);
+    return append_contact(run, &run->contacts.lasting[joint]);
 }
 
 /*
@@ -193,7 +193,7 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
         if (!was_closed && touches)
             close_contact(run, i, run->t, fabs(clearance->deltadot), min_approach_speed(p, i));
         else if (was_closed && clearance->delta < 0.0)
-            open_contact(run, i, run->t);
+            (void)open_contact(run, i, run->t); /* the list of a new run is empty */
         changed |= was_closed != run->discrete.contact[i].closed;
         update_compression(run, i, clearance->deltadot);
     }

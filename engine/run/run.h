@@ -7,9 +7,19 @@
 #include "cancellation.h"
 #include "audit.h"
 
+/*
+ * Rows that a step may append to the list of contacts for each joint with play. Compliant: one separation. Rigid: at
+ * the event and at a jump of a drive, N_LISTED_PASSES + 1 = 9 impacts and two separations (run/impacts.c).
+ */
+#if N_RIGID
+enum { MAX_CONTACTS_PER_STEP = 22 };
+#else
+enum { MAX_CONTACTS_PER_STEP = 1 };
+#endif
+
 enum {
     /* lengths of the lists of a run: they count as full from MAX_LISTED entries on; one more step fits */
-    LISTED_IMPACTS = N_CLEARANCES ? MAX_LISTED + 2 * N_CLEARANCES : 1,
+    LISTED_IMPACTS = N_CLEARANCES ? MAX_LISTED + MAX_CONTACTS_PER_STEP * N_CLEARANCES : 1,
     LISTED_EVENTS = N_USER_EVENTS ? MAX_LISTED + 3 * N_USER_EVENTS : 1
 };
 

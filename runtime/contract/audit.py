@@ -20,8 +20,8 @@ class Check:
 
 _STEP_CHECKS = {  # in C, at steps
     "defect": ("the dense output against the equations of motion between the ends of a step",),
-    "gap": ("open joints, which do not penetrate", "joint"),
-    "free": ("joint forces without a contact, which are zero", "joint"),
+    "gap": ("penetrations of joints, which closed contacts alone have", "joint"),
+    "free": ("joint forces, which are zero without a contact and never pull rigid surfaces", "joint"),
     "position": ("all constraint equations Φ = 0 of all bodies", "row"),
     "velocity": ("all velocity constraints Φ_q v = ν of all bodies", "row"),
     "acceleration": ("accelerations against the equations of motion of all bodies", "coordinate"),
@@ -30,6 +30,7 @@ _STEP_CHECKS = {  # in C, at steps
     "force": ("forces of films against the accelerations of the dense output", "joint"),
     "rate": ("rates of the dense output against velocities and accelerations, whatever the step's length",),
     "step": ("the errors of steps by the integral of the defect of the dense output",),
+    "mode": ("slips and forces of friction elements against their modes", "friction"),
 }
 CHECKS = tuple(Check(name, *_STEP_CHECKS[name]) for name in AUDIT_CHECK_NAMES)
 SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/audit.py)

@@ -59,7 +59,8 @@ CHECK_event: Final = 7
 CHECK_force: Final = 8
 CHECK_rate: Final = 9
 CHECK_step: Final = 10
-N_CHECKS: Final = 11
+CHECK_mode: Final = 11
+N_CHECKS: Final = 12
 AUDIT_CHECK_NAMES = (
     "defect",
     "gap",
@@ -72,6 +73,7 @@ AUDIT_CHECK_NAMES = (
     "force",
     "rate",
     "step",
+    "mode",
 )
 
 # enum FrictionMode

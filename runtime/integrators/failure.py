@@ -438,7 +438,7 @@ def build_findings(source: KernelSource, values: Array, t: Array, indices: NDArr
 
 
 def _get_location_name(source: KernelSource, check: Check, index: int) -> str:
-    """Return the name of the joint, row, event or coordinate with this index; "" if it is negative.
+    """Return the name of the joint, row, event, friction or coordinate with this index; "" if it is negative.
 
     `check.place` is the kind of object that the index counts, "" for none. Other kinds give "kind index".
     """
@@ -450,6 +450,8 @@ def _get_location_name(source: KernelSource, check: Check, index: int) -> str:
         return source.start_rows[index].name
     if check.place == "event":
         return source.events[index].name
+    if check.place == "friction":
+        return source.frictions[index]
     return source.coordinates[index] if check.place == "coordinate" else f"{check.place} {index}"
 
 
