@@ -72,9 +72,10 @@ def assemble_scenes(
 ) -> Findings:
     """Assemble every scene of a mechanism; find its assemblies if `branches`, or if the linkage is small.
 
-    Small: up to MAX_SEARCHED_COORDINATES coordinates. settings: values by address that replace the file's; each applies
-    to the scenes that have the address. An error of a scene is stored in `errors` of the returned Findings. Raises
-    UnknownNameError for an address that no scene has, and InputError if the file's `freedoms` are wrong.
+    Small: up to MAX_SEARCHED_COORDINATES coordinates. Assemblies are those of the first scene that can be assembled.
+    settings: values by address that replace the file's; each applies to the scenes that have the address. An error of a
+    scene is stored in `errors` of the returned Findings. Raises UnknownNameError for an address that no scene has, and
+    InputError if the file's `freedoms` are wrong.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
@@ -96,7 +97,9 @@ def assemble_scenes(
             check_degrees_of_freedom(expected.value.value, expected.where, assembled_scene.closed_mobility)
         if not assemblies and (branches or linkage.n <= MAX_SEARCHED_COORDINATES):
             assemblies = tuple(
-                find_assemblies(linkage, linkage.p, assembled_scene.q, assembled_scene.closed_mobility.along)
+                find_assemblies(
+                    linkage, linkage.p, assembled_scene.q, assembled_scene.closed_mobility.independent_coordinates
+                )
             )
     return Findings(scenes, errors, assemblies)
 
@@ -189,20 +192,24 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
     )
     yield from (("start", message) for message in dict.fromkeys(journal_messages))
     closed = first.closed_mobility
-    if closed.loose:
-        yield "loose", f"no joint or drive connects {', '.join(closed.loose)} to the ground"
+    if closed.unconnected_bodies:
+        yield "loose", f"no joint or drive connects {', '.join(closed.unconnected_bodies)} to the ground"
     if closed.freedoms and mechanism.freedoms is None:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
         remedy = f"if that is intended, write freedoms: {closed.freedoms}"
-        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {remedy}"
+        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.independent_coordinates)}; {remedy}"
         yield from _yield_unattached_body_remarks(mechanism, closed)
     yield from _yield_mass_remark(mechanism, findings)
     if closed.redundant:
         rows = "1 row of Φ is" if closed.redundant == 1 else f"{closed.redundant} rows of Φ are"
         counted = f"{closed.gruebler} degrees of freedom by counting, {closed.freedoms} by rank"
         yield "redundant", f"{rows} redundant: {counted}"
-    if closed.aligned:
-        rows = "a row of Φ_q depends" if closed.aligned == 1 else f"{closed.aligned} rows of Φ_q depend"
+    if closed.n_dependent_at_start:
+        rows = (
+            "a row of Φ_q depends"
+            if closed.n_dependent_at_start == 1
+            else f"{closed.n_dependent_at_start} rows of Φ_q depend"
+        )
         yield (
             "singular",
             (
@@ -226,7 +233,7 @@ def _yield_unattached_body_remarks(mechanism: Mechanism, mobility: Mobility) -> 
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
         other = drive.reference or "ground"
-        moves = any(name.rpartition(".")[0] == drive.body for name in mobility.along)
+        moves = any(name.rpartition(".")[0] == drive.body for name in mobility.independent_coordinates)
         if drive.kind == "angle" and moves and frozenset((drive.body, other)) not in joined:
             reference = "the ground" if other == "ground" else other
             yield "shaft", f"no joint connects {drive.body} to {reference}, the reference of drive {drive.name}"
@@ -239,9 +246,9 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
     """
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
-        slot.address: abs(float(p[k]))
-        for k, slot in enumerate(source.slots)
-        if slot.dimension == (1, 0, 0) and not slot.address.startswith(("parameters.", "start."))
+        parameter.address: abs(float(p[k]))
+        for k, parameter in enumerate(source.slots)
+        if parameter.dimension == (1, 0, 0) and not parameter.address.startswith(("parameters.", "start."))
     }
     address = max(lengths, key=lengths.__getitem__, default="")
     if not address or lengths[address] <= MAX_LENGTH:
@@ -311,21 +318,25 @@ def format_guess(assembly: Assembly) -> str:
 
 def build_scene_documents(findings: Findings) -> dict[str, Any]:
     """Return the results of all scenes for `--json`, by scene; angles in rad, lengths in m."""
-    return {name: _build_scene_document(scene) for name, scene in findings.scenes.items()} | {
+    return {name: _build_assembled_scene_document(scene) for name, scene in findings.scenes.items()} | {
         name: {"assembles": False, "message": str(error)} for name, error in findings.errors.items()
     }
 
 
-def _build_scene_document(scene: AssembledScene) -> dict[str, Any]:
-    """Return the results of one assembled scene as a dictionary for `--json`."""
+def _build_assembled_scene_document(scene: AssembledScene) -> dict[str, Any]:
+    """Return the results of one assembled scene as a dictionary for `--json`.
+
+    It has the degrees of freedom with and without play, Grübler's count, the number of redundant equations, independent
+    coordinates, unconnected bodies, and guesses that are not followed.
+    """
     return {
         "assembles": True,
         "degrees of freedom": scene.scene_mobility.freedoms,
         "with all joints closed": scene.closed_mobility.freedoms,
         "by counting": scene.closed_mobility.gruebler,
         "redundant rows": scene.closed_mobility.redundant,
-        "along": list(scene.closed_mobility.along),
-        "loose": list(scene.closed_mobility.loose),
+        "along": list(scene.closed_mobility.independent_coordinates),
+        "loose": list(scene.closed_mobility.unconnected_bodies),
         "guesses not followed": dict(scene.guess_deviations),
     }
 

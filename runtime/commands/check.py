@@ -318,7 +318,11 @@ def yield_reduction_logs(
 
 
 def _make_log_table(steps: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
-    """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text."""
+    """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text.
+
+    `steps`: (coordinates, equations, text) of each reduction step; without steps the table has no header. `lines`:
+    (label, text) below the steps, with the label in the first column. The last row is empty.
+    """
     from rich.table import Table
     from rich.text import Text
 

@@ -138,7 +138,7 @@ def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str
 def report_missing_glyphs() -> Iterator[None]:
     """Return a context in which matplotlib's warnings about missing glyphs are combined into one.
 
-    That warning and all others are issued at the end of the context.
+    That warning and all others are issued at the end of the context, not if an error ends it.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -156,7 +156,8 @@ def report_missing_glyphs() -> Iterator[None]:
 def encode_figure(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
     """Return a figure as the bytes of an SVG, PNG or PDF file, always the same for the same figure.
 
-    `suffix` is ".svg", ".png" or ".pdf". Date and version are left out. Raises KeyError for any other suffix.
+    `suffix` is ".svg", ".png" or ".pdf"; any other raises KeyError. Date and version are left out. Glyphs that the font
+    lacks are reported in one warning.
     """
     out = io.BytesIO()
     file_format = suffix.removeprefix(".")

@@ -45,9 +45,10 @@ class MovingFrame:
     length_index: int = -1
 
     def compute_frame(self, configuration: Configuration) -> tuple[Array, Array, float]:
-        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the moving frame at a configuration.
+        """Return origin r_P (2,) in m, rotation matrix A(φ) (2, 2) and length s of the moving frame at a configuration.
 
-        The matrix is the identity if the direction that defines φ is a zero vector.
+        s is the distance of P and Q or a parameter (m), 0 without one. A is the identity if the direction of φ is a
+        zero vector.
         """
         origin, q, p = (
             configuration.get_position(self.point) if self.point else np.zeros(2),

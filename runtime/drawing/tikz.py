@@ -16,10 +16,11 @@ from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is
 MAX_WIDTH_IN, MAX_HEIGHT_IN = 6.3, 5.0  # inches on the page
 
 
-def write_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
-    """Return a sketch as the text of a tikzpicture with definitions of its colours.
+def format_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
+    """Return a sketch as the text of a tikzpicture with definitions of its colours; nothing is written.
 
     It is at most MAX_WIDTH_IN by MAX_HEIGHT_IN inches. `escape_latex` converts a name to LaTeX without commands.
+    matplotlib places the names.
     """
     width, height = compute_figure_size(sketch, MAX_WIDTH_IN)
     shrink_factor = min(1.0, MAX_WIDTH_IN / width, MAX_HEIGHT_IN / height)

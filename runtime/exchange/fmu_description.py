@@ -101,7 +101,11 @@ def iterate_parameters(source: KernelSource) -> Iterator[tuple[int, str, str, fl
 
 
 def explain_exchange_obstacle(source: KernelSource) -> str:
-    """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too."""
+    """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too.
+
+    Obstacles: no degrees of freedom, friction elements or rigid contacts with modes, drives whose rate jumps, internal
+    states of laws, kinematically determined loops, and a scene without Jacobian.
+    """
     if source.degrees_of_freedom == 0:
         return "no degrees of freedom: drives determine the motion"
     if source.frictions or source.rigid:

@@ -93,10 +93,10 @@ class Runs(StoredRuns):
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
             self.n_lanes = min(self.n_lanes, max(lanes.MIN_SHARED_ROWS, MAX_UNSTORED_SAMPLES // N))
-        n_spare = (
+        n_unstored_rows = (
             min(self.n_lanes, MAX_UNSTORED_SAMPLES // N) if self.lane_provider else 0
         )  # rows of finished runs that are not stored yet
-        self.n_rows_per_thread = self.n_lanes + n_spare  # rows of samples per thread
+        self.n_rows_per_thread = self.n_lanes + n_unstored_rows  # rows of samples per thread
         if is_kinematic:
             self.n_rows_per_thread = count_kinematic_rows(N)
         super().__init__(
@@ -117,9 +117,10 @@ class Runs(StoredRuns):
         self.resumed = set[int]()  # runs that resume from a state
 
     def _make_batch_struct(self) -> Any:
-        """Return C's struct Batch with pointers to all arrays; not for time loops in Python.
+        """Return C's struct Batch with pointers to all arrays, tolerances and settings; not for time loops in Python.
 
-        Arrays of parameters, times and tolerances in `arrays` are replaced by contiguous ones.
+        Arrays of parameters, times and tolerances in `arrays` are replaced by contiguous ones. A single run with arrays
+        in one block (SingleRunArrays) gets the values copied into that block instead.
         """
         compiled, x, times = self.compiled, self.arrays, self.times
         scale, least, size = adaptive.compute_tolerances_of_runs(compiled, x["p"], self.rtol)
@@ -178,7 +179,8 @@ class Runs(StoredRuns):
     def integrate_all_runs(self, progress: Progress | None) -> None:
         """Integrate all runs in threads, assemble missing starts, and record failures; Ctrl-C ends them where they are.
 
-        Starts are assembled in C where possible, in Python for the rest. `progress` is called with the fraction of runs
+        Starts are assembled in C where possible, in Python for the rest. After Ctrl-C `interrupted` is set, and nothing
+        is raised. The contacts of all runs are then joined and sorted. `progress` is called with the fraction of runs
         done. `progress` None: nothing is reported.
         """
         with DelayedCtrlC() as ctrl_c:

@@ -128,14 +128,14 @@ class KinematicEnsemble:
         """
         struct = self._complete_struct if is_complete else self._struct
         self.compiled.lib.switch_library_if_ready()
-        numbers, ffi = np.array(indices, np.int_), self.compiled.ffi
-        if lanes and len(numbers) > 1:
+        run_indices, ffi = np.array(indices, np.int_), self.compiled.ffi
+        if lanes and len(run_indices) > 1:
             rows = [find_memory_address(ffi, row) for row in storages]
-            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", struct)), rows, numbers)
+            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", struct)), rows, run_indices)
             return
         storage = self.compiled.pointer(storages[0], "void *", True)
-        numbers_pointer = self.compiled.pointer(numbers, "long *")
-        self.compiled.lib.gudgeon_kinematic_ensemble(struct, storage, len(numbers), numbers_pointer)
+        indices_pointer = self.compiled.pointer(run_indices, "long *")
+        self.compiled.lib.gudgeon_kinematic_ensemble(struct, storage, len(run_indices), indices_pointer)
 
     def compute_short_run(self, problem: Problem) -> bool:
         """Compute the only run of the batch and return whether it is complete.

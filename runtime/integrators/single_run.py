@@ -65,7 +65,8 @@ class SingleRun(Runs):
     def begin_problem(self, problem: Problem) -> None:
         """Reset the arrays for C, and set start, times, parameter values, tolerances and observer of the next run.
 
-        The results of the previous run are overwritten.
+        The results of the previous run are overwritten. The parameters of the motion are `p_free` (without Baumgarte
+        gains) unless the method is rk4.
         """
         compiled, x, n = self.compiled, self.arrays, self.compiled.n
         assert isinstance(x, SingleRunArrays)

@@ -146,7 +146,7 @@ class _PythonLists(NamedTuple):
 
     impacts: NDArray[Any]
     events: NDArray[Any]
-    no_number: NDArray[Any]
+    undefined_events: NDArray[Any]
 
 
 class StoredRuns:
@@ -280,15 +280,15 @@ class StoredRuns:
         For runs in C both contain the states there (build_event_dtype), and events after the last sample are dropped.
         """
         if i in self.python_lists:
-            return self.python_lists[i].events, self.python_lists[i].no_number
+            return self.python_lists[i].events, self.python_lists[i].undefined_events
         if i not in self.events:
             return (empty := make_empty_event_states(self.compiled)), empty
         x, times = self.arrays, self.times.get_times(i)
-        events, lost = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
+        events, undefined = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
-            return events, lost
+            return events, undefined
         t_last = self.get_reached_times(i)[-1] + compute_time_resolution(times)
-        return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
+        return events[events["t"] <= t_last], undefined[undefined["t"] <= t_last]
 
     def is_complete(self, i: int) -> bool:
         """Return whether run i has a sample at the last of its output times and was not interrupted."""

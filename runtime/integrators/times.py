@@ -105,5 +105,5 @@ def compute_last_step(duration: float, step: float) -> float:
     A remainder equal to `step` up to rounding counts as `step`, as in step_end in numbers.h.
     """
     total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
-    rest = duration - (total - 1) * step
-    return step if abs(rest - step) < LAST_STEP_TOL * step else rest
+    remainder = duration - (total - 1) * step
+    return step if abs(remainder - step) < LAST_STEP_TOL * step else remainder

@@ -235,8 +235,8 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         part["memory"], part["state"] = discrete_states[:count, : compiled.n_memory], state[:count, :joints]
         parts.append(part)
     fetched = np.concatenate(parts)
-    no_number = fetched["event"] >= len(compiled.source.events)
-    return fetched[no_number | (fetched["t"] > times[0] + compute_time_resolution(times))]
+    is_undefined = fetched["event"] >= len(compiled.source.events)
+    return fetched[is_undefined | (fetched["t"] > times[0] + compute_time_resolution(times))]
 
 
 def split_undefined_events(compiled: CompiledModel, events: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:

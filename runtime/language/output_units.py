@@ -55,9 +55,10 @@ def parse_exponents(unit: str) -> Exponents:
 
 
 def _derive_exponents(expression: Expr, get_unit: Callable[[str], str | None]) -> Exponents | None:
-    """Return the exponents of an expression's unit; None for a bare number, which fits any unit.
+    """Return the exponents of an expression's unit; None for a number without unit, which fits any unit.
 
-    Raises ValueError for a unit that is not SI.
+    get_unit(path): unit of a name, None for one without. A power needs a literal exponent; other expressions count as
+    pure numbers. Raises ValueError for a unit that is not SI.
     """
     match expression:
         case Number():
@@ -131,7 +132,11 @@ def _format_exponents(exponents: Exponents) -> str:
 
 
 def find_angle_power(expression: Expr) -> int:
-    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg."""
+    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg.
+
+    Products add, quotients subtract; of the terms of a sum and of equal arguments the largest counts. A function that
+    returns an angle gives 1. Names, powers and curves give 0.
+    """
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]

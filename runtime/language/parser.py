@@ -98,7 +98,8 @@ class _Parser:
     def register_node(self, expr: Expr, *children: Expr) -> Expr:
         """Register a new node with its depth and number of nodes, and return it.
 
-        children: its direct operands. Raises LimitError if the tree exceeds the limits.
+        children: its direct operands. Arguments of functions that are expanded later count several times
+        (ARGUMENT_COPIES). Raises LimitError if the tree exceeds the limits.
         """
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
@@ -263,7 +264,8 @@ class _Parser:
     def parse_arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
         """Return the trees of the arguments in brackets after checking their number.
 
-        function: token of the function or curve. The arguments of `where` are ordered as if `<` had been written.
+        function: token of the function or curve. The first argument of `where` is a comparison, which gives two trees.
+        They are ordered as if `<` had been written. Raises ExpressionError.
         """
         opened, is_where = self.advance().offset, function.text == "where"
         left = self.parse_sum(level)

@@ -85,7 +85,8 @@ class OptimizedLibrary:
     def switch_if_library_is_ready(self, functions: Functions) -> bool:
         """Switch `functions` to the optimized library if the cache has it; return whether it is still expected.
 
-        Return False after the switch, and if the process has failed. Return True at once while another thread checks.
+        Return False after the switch, if the process has failed, and if the library cannot be used. Return True at once
+        while another thread checks.
         """
         lock = self._get_lock()
         if not lock.acquire(blocking=False):

@@ -368,8 +368,9 @@ class CompiledModel:
     ) -> None:
         """Raise SingularError for a status k > 0, with the constraint equation of the pivot; return for other values.
 
-        `pivot_names`: names to which k refers, those of the source by default. `p`: parameter values, to name masses
-        whose ratio is too large. `p` None: no ratio of masses is tested.
+        `pivot_names`: names to which k refers, those of the source by default; the pivot of a coordinate is reported as
+        too small. `p`: parameter values, to name masses whose ratio is too large. `p` None: no ratio of masses is
+        tested.
         """
         if status > 0:
             row = (pivot_names or self.source.pivots)[status - 1]

@@ -70,7 +70,7 @@ def spread_lengths(source: KernelSource, lengths: Array) -> Array:
 
 
 def compute_size(source: KernelSource, p: Array) -> float:
-    """Return the size (m) of the mechanism with the parameter values p (n_slots + n_derived,) of one run."""
+    """Return the size (m) of the mechanism with the parameter values p (n_parameters + n_derived,) of one run."""
     return _measure_lengths(source, select_lengths(source, p))[0]
 
 

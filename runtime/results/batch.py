@@ -308,7 +308,7 @@ class Batch:
 def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
     """Return the values (n,) of the parameters that any run was given, by address; choices as names.
 
-    `p` (n, n_slots + n_derived) has the parameters of all runs, `is_given` (n, n_slots) which of them were given.
+    `p` (n, n_parameters + n_derived): parameters of all runs; `is_given` (n, n_parameters): mask of those given.
     """
     given_parameters = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
     return {parameter.address: format_values_of_runs(parameter, values) for parameter, values in given_parameters}

@@ -103,9 +103,10 @@ def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
 
 
 def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half_width: float) -> None:
-    """Draw the path of a journal, e/c, in its clearance circle, with dots where the surfaces are in contact.
+    """Draw the path of a journal, e/c, in its clearance circle, with dots where the surfaces are in contact (e ≥ c).
 
-    Beyond the predictability horizon the path is grey. `half_width` is half the side of the square, in units of c.
+    A ring marks the start. Beyond the predictability horizon the path is grey. `half_width` is half the side of the
+    square, in units of c.
     """
     c = run.constants[f"{joint}.c"]
     t, x, y = joint_curves.get_journal_path(run, joint)
@@ -335,7 +336,9 @@ def _draw_title_and_legend(
 ) -> None:
     """Draw the title of the mechanism and one legend for all panels.
 
-    The legend is next to the title, or below all panels if it has more than MAX_LEGEND_ENTRIES entries.
+    It has an entry for each scene in `colours`, for the ideal reference if `has_reference`, and for the time beyond the
+    predictability horizon. The legend is next to the title, or below all panels if it has more than MAX_LEGEND_ENTRIES
+    entries.
     """
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
