@@ -227,8 +227,10 @@ class AssemblyProblem:
     ) -> Array:
         """Return the configuration that minimizes the sum of squares of residuals, by Levenberg–Marquardt steps from q.
 
-        `compute_residuals` and `compute_jacobian` are functions of the configuration (n,). The last improved
-        configuration is returned where a value is not finite or no further improvement is found.
+        `compute_residuals` and `compute_jacobian` are functions of the configuration (n,). Coordinates are scaled by
+        the mechanism's size. The damping falls after a step that reduces the norm and grows after another, which is
+        discarded. The last improved configuration is returned after 2 MAX_STEPS steps, or where a value is not finite
+        or no further improvement is found.
         """
         damping, residual = 1e-3, compute_residuals(q)
         scale = np.where(self.is_angle, 1.0, self.size)
@@ -278,9 +280,11 @@ class AssemblyProblem:
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < MAX_RELATIVE_DISTANCE * self.max_distance)
 
     def _compute_relative_guess_error(self, q: Array) -> float:
-        """Return the largest error of guessed angles, positions and points, relative to the limits for more starts.
+        """Return the largest error of guessed angles, positions and points at q, relative to the limits for more
+        starts.
 
-        It is 0 without guesses.
+        The limits are MAX_GUESS_ERROR_RAD for angles, and MIN_DIFFERENCE of the mechanism's size for lengths (for
+        positions of the distance from the origin, if larger). It is 0 without guesses.
         """
         differences = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.first_guess, 0.0)
         position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(

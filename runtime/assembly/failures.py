@@ -213,8 +213,9 @@ def _search_wrong_lengths(problem: AssemblyProblem, q: Array) -> Iterator[WrongL
 def _find_closing_length_change(problem: AssemblyProblem, q: Array, length_indices: list[int]) -> float | None:
     """Return the smallest relative change of some lengths that closes the equations; None if none does.
 
-    length_indices: the lengths' indices in p. q: first configuration. Newton's method on the norm of the least residual
-    is followed by bisection between open and closed. Changes outside MIN_CHANGE to MAX_CHANGE are not considered.
+    length_indices: the lengths' indices in p; they are scaled together. q: first configuration. Newton's method on the
+    norm of the least-squares residual is followed by bisection between open and closed. Changes outside MIN_CHANGE to
+    MAX_CHANGE are not considered; None also for a residual that is not finite or hardly depends on the lengths.
     """
     p, open_change, closing_change, change = problem.p, 0.0, None, 0.0
 

@@ -25,9 +25,9 @@ MAX_ANGLE_DEVIATION = np.pi / 6  # rad; smaller deviations from a guessed angle 
 def find_guess_deviations(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     """Return {name: deviation} of the guessed coordinates and points from which the assembled position q deviates.
 
-    Deviations of coordinates are q minus the guess (rad or m), those of points are distances (m). Only deviations above
-    30° for angles, and above 0.2 of the mechanism's size (of a coordinate's guess, if larger) for lengths, are
-    returned.
+    Deviations of coordinates are q minus the guess (rad or m; angles within a half turn), those of points are distances
+    (m). Only deviations above MAX_ANGLE_DEVIATION (30°) for angles, and above MIN_DIFFERENCE (0.2) of the mechanism's
+    size (of a coordinate's guess, if larger) for lengths, are returned.
     """
     source, differences = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))

@@ -160,7 +160,10 @@ def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
 
 
 def _yield_mass_remark(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
-    """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
+    """Yield a remark (subject, text) if scenes with degrees of freedom need masses or inertias that the file lacks.
+
+    The text lists the scenes, which cannot be run, and the missing keys of each body with their locations.
+    """
     missing_texts = [
         f"{b.name} has no {' and no '.join(b.missing_keys)} ({b.where})"
         for b in mechanism.bodies.values()
@@ -261,8 +264,10 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
 
 
 def _yield_ambiguity_remark(findings: Findings) -> Iterator[tuple[str, str]]:
-    """Yield a remark if several assemblies follow the guesses of the file equally well, with a guess that separates
-    them.
+    """Yield a remark if several assemblies follow the guesses of the file equally well.
+
+    It is a pair (subject, text). The text names a coordinate whose guess separates them, with its value in the present
+    start and in the others.
     """
     if not (equivalent_assemblies := findings.equivalent_assemblies):
         return
@@ -295,7 +300,10 @@ def _format_guess_value(name: str, x: float) -> str:
 
 
 def yield_assembly_lines(findings: Findings) -> Iterator[str]:
-    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was searched."""
+    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was searched.
+
+    The assembly at the file's start is marked. A last line advises to replace the file's guess, if there are guesses.
+    """
     if not findings.assemblies:
         return
     count = len(findings.assemblies)

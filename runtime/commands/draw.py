@@ -267,7 +267,10 @@ def _draw_unclosed_linkage(
 
 
 def _draw_assemblies(mechanism: Mechanism, problem: AssemblyProblem, q: Array) -> tuple[list[Sketch], list[str]]:
-    """Return a sketch of each assembly, and as its title the guess that selects it; the start is the first."""
+    """Return a sketch of each assembly, and as its title the guess that selects it; the start q (n,) is the first.
+
+    Titles are numbered, and that of the start is marked "(as in the file)".
+    """
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.commands.assembly_report import format_guess

@@ -186,7 +186,11 @@ def _check_varied_once(option: str, texts: Sequence[str]) -> None:
 
 
 def _check_axis_names(map_options: MapOptions, simulations: Sequence[Simulation]) -> None:
-    """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
+    """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has.
+
+    Names are addresses of parameters, the settings step and rtol, "clearance", and groups of parameters. Texts without
+    "=" are not checked.
+    """
     addresses = [name for simulation in simulations for name in list_addresses(simulation.source)]
     known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *addresses]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):

@@ -141,9 +141,7 @@ def run_scenes(request: RunRequest) -> int:
 
 
 def _format_interruption(names: Iterable[str], outcome: RunOutcome) -> str:
-    """Return the message after Ctrl-C: which results are shown and saved, where runs ended, and which scenes are
-    missing.
-    """
+    """Return the message after Ctrl-C: which results are shown and saved, where runs ended, missing scenes."""
     from gudgeon.simulation.predictability_horizon import UNFINISHED
 
     if not outcome.runs:

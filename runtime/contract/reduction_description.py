@@ -253,7 +253,10 @@ def _format_ratio(before: int, after: int) -> str:
 
 
 def _format_law_operations(source: KernelSource) -> str:
-    """Return a text on the operations of force laws; joints with equal numbers are listed together. "" without play."""
+    """Return a text on the operations of force laws, "" without play; joints with equal numbers are listed together.
+
+    The numbers are of the film and of the dry contact of a joint, from source.operations.
+    """
     joints_by_text: dict[str, list[str]] = {}
     for joint in source.clearances:
         operations = {

@@ -199,7 +199,11 @@ def _find_arrow_position(configuration: Configuration, layout: Layout, part: Par
 
 
 def _draw_cylinder(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
-    """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
+    """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end.
+
+    It joins both points of the drive; lengths along its axis are fractions of their distance. Ends on the ground get
+    the symbol of the ground.
+    """
     name, u = f"drive {part.name}", layout.unit
     begin, end = (configuration.get_position(point) for point in part.ends)
     axis, length = unit_vector(end - begin), float(np.hypot(*(end - begin)))

@@ -55,7 +55,10 @@ def draw_sketch(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
 
 
 def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
-    """Return the matplotlib patch of a shape in the style `role`; in grey if `is_grey`."""
+    """Return the matplotlib patch of a shape in the style `role`: a circle for a disc, a polygon for a line.
+
+    With `is_grey`, edge and face are grey. An open line is not filled.
+    """
     edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
     style: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:

@@ -88,7 +88,10 @@ class MovingShape:
     max_error: float = 0.0  # m, largest error of a point at the tried configurations
 
     def move_to(self, configuration: Configuration) -> Shape:
-        """Return the shape moved to a configuration: points of a line, or centre and radius of a disc."""
+        """Return the shape moved to a configuration: points of a line, or centre and radius of a disc.
+
+        x = r_P + A (c₀ + s c₁) with the moving frame of each point; the radius is r₀ + r₁ p[k].
+        """
         positions = np.empty((len(self.moving_frames), 2))
         for moving_frame in dict.fromkeys(self.moving_frames):
             origin, rotation, s = moving_frame.compute_frame(configuration)

@@ -59,9 +59,10 @@ class _Colours:
 
 
 def _format_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colours) -> str:
-    """Return the TikZ command of a line or circle in the style of its role.
+    """Return the TikZ command of a line or circle in the style of its role: width, edge, fill and dashes.
 
-    `to_points` converts metres to points; `colours` collects the colours that need a definition.
+    `to_points` converts metres to points; `colours` collects the colours that need a definition. An open line is not
+    filled.
     """
     role = ROLES[shape.role]
     edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)

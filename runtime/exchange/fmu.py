@@ -138,7 +138,8 @@ def _get_platform_name() -> str:
 def _compile_binary(sources: Mapping[str, str]) -> bytes:
     """Compile the sources, by path, and return the bytes of the shared library, for any processor of this architecture.
 
-    Raises BuildError with the compiler's message.
+    They are written to a temporary folder; only functions of FMI are exported. Raises BuildError with the compiler's
+    message.
     """
     command = compiler.find_compiler()
     with tempfile.TemporaryDirectory(prefix="gudgeon-fmu-") as folder:

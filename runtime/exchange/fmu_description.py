@@ -251,7 +251,11 @@ def list_indicators(source: KernelSource) -> list[tuple[str, str]]:
 
 
 def _iterate_structure_elements(source: KernelSource) -> Iterator[str]:
-    """Yield the XML elements of the model structure: outputs, derivatives, initial unknowns, event indicators."""
+    """Yield the XML elements of the model structure: outputs, derivatives, initial unknowns, event indicators.
+
+    Each has the value reference of a variable. Initial unknowns are the outputs, the states and the derivatives.
+    States, derivatives and indicators exist only for scenes with model exchange.
+    """
     n_outputs, n_states = len(list(iterate_outputs(source))), len(list_states(source))
     rate_references = range(VR_RATES, VR_RATES + n_states)
     references_by_kind = {
@@ -318,7 +322,11 @@ def build_description(source: KernelSource, name: str) -> str:
 
 
 def build_build_description(name: str) -> str:
-    """Return the text of sources/buildDescription.xml, which lists the C files; `name` is the model identifier."""
+    """Return the text of sources/buildDescription.xml, from which an importer compiles the C files.
+
+    It names the compilation units, the language C11, the option -ffp-contract=off and the library m. `name` is the
+    model identifier.
+    """
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',

@@ -205,7 +205,8 @@ class Runs(StoredRuns):
     def _record_failures(self) -> None:
         """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN.
 
-        Interrupted runs and runs that never began are recorded as SolverError. Shared rows of samples are not filled.
+        Runs that the user interrupted or that never began get a SolverError; recorded failures are kept. Runs without a
+        sample are NaN throughout. Shared rows of samples are not filled.
         """
         x = self.arrays
         self._reset_unassembled_runs()
@@ -251,7 +252,10 @@ class Runs(StoredRuns):
         return [i for i in runs if x["phase"][i] == NEW]
 
     def build_problem(self, i: int) -> Problem:
-        """Build the Problem of run i, whose start is known, as for a single run; it has no observer and no progress."""
+        """Build the Problem of run i, whose start is known, as for a single run; it has no observer and no progress.
+
+        The contact codes of its start are those of a resumed run, else None.
+        """
         x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
         return Problem(
             self.compiled,

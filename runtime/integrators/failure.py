@@ -390,7 +390,11 @@ def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> b
 
 
 def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Array, t: float) -> SolverError | None:
-    """Build the error for a linkage near a dead centre, where constraint equations depend on each other; else None."""
+    """Build the error for a linkage near a dead centre, where constraint equations depend on each other; else None.
+
+    `last_state`: state before the failure, of which q is tested; t (s): time for the message. The advice depends on
+    whether the scene has drives.
+    """
     rows = find_nearly_dependent_equations(compiled, p, t, np.ravel(last_state)[: compiled.n])
     if not rows:
         return None

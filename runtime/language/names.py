@@ -101,7 +101,10 @@ def format_character(character: str) -> str:
 
 
 def suggest_replacement(character: str) -> str:
-    """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones."""
+    """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones.
+
+    Spaces, invisible characters, dashes, and characters with an ASCII equivalent (NFKC) are known.
+    """
     kind = unicodedata.category(character)
     if character.isascii():
         return ""

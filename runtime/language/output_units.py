@@ -36,7 +36,10 @@ def derive_unit(expression: Expr, get_unit: Callable[[str], str | None]) -> str:
 
 
 def parse_exponents(unit: str) -> Exponents:
-    """Return the exponents of m, kg, s, rad of an SI unit such as "kg*m^2/s". Raises ValueError for any other text."""
+    """Return the exponents of m, kg, s, rad of an SI unit such as "kg*m^2/s"; derived units such as N count too.
+
+    "1" has no exponents; a "/" inverts the next factor only. Raises ValueError for any other text.
+    """
     total = list(_PLAIN)
     sign = 1
     for part in unit.replace("*", " * ").replace("/", " / ").split():

@@ -67,7 +67,10 @@ class _Parser:
         self.registered: list[Expr] = []  # nodes whose ids are in use
 
     def parse_all(self) -> Expr:
-        """Return the tree of the whole text. Raises ExpressionError if anything follows the expression."""
+        """Return the tree of the whole text. Raises ExpressionError if anything follows the expression.
+
+        The hint proposes a comparison or a decimal point if that may be meant.
+        """
         expr = self.parse_sum(0)
         if self.token.kind != "end":
             self.raise_error(
@@ -207,8 +210,9 @@ class _Parser:
         return base
 
     def parse_atom(self, level: int) -> Expr:
-        """Return the tree of a number, a name, a call or an expression in brackets. Raises ExpressionError for
-        anything else.
+        """Return the tree of a number, a name, a call or an expression in brackets, and advance after it.
+
+        level: depth of nesting. Raises ExpressionError for anything else.
         """
         token = self.token
         if token.number is not None:

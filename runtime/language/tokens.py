@@ -235,7 +235,11 @@ class Tokenizer:
         return None, end
 
     def _check_unit_power(self, start: int) -> None:
-        """Raise UnitError if the unit text at offset `start` is in brackets or has a power that is not allowed."""
+        """Raise UnitError if the unit text at offset `start` is in brackets or has a power that is not allowed.
+
+        Powers are 1 to 9, −1 to −9 and halves of these, without spaces. The hint gives the accepted form. Called before
+        a unit is parsed.
+        """
         if (bracketed := _BRACKETED.match(self.text, start)) and find_unit(bracketed[1]):
             hint = "each unit has its own power: m^2/s^2 for (m/s)^2"
             self.raise_error(f"brackets around the unit {bracketed[1]}", start, hint, UnitError)

@@ -68,7 +68,11 @@ class OptimizedLibrary:
         self._owner, self._lock = os.getpid(), Lock()
 
     def start_process(self, quick_entry: Path, portable: bool) -> bool:
-        """Start the other process, which reads the cache entry `quick_entry`; return False if it cannot be started."""
+        """Start the other process, which builds the optimized library; return False if it cannot be started.
+
+        It reads the kernel source from the cache entry `quick_entry` of the unoptimized library, without output and in
+        a session of its own. portable: for any processor of this architecture.
+        """
         import subprocess
 
         request = json.dumps([str(self._cache.root), str(quick_entry), portable])

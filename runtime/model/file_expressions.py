@@ -65,7 +65,11 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
     offset_of_component = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
 
     def evaluate_name(path: str) -> float:
-        """Return the value of a name at the state. Raises KeyError for an unknown name."""
+        """Return the value of a name at the state. Raises KeyError for an unknown name.
+
+        A point on a body has position and velocity from the body's coordinates and its arm; a point on the ground is
+        constant.
+        """
         if path == "t":
             return t
         for address in (f"parameters.{path}", path):  # path: "ground.O.x"
@@ -327,7 +331,10 @@ def _find_active_parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
 
 
 def _describe_part(tree: Expr, values: Values) -> str:
-    """Return a description of an expression with the values of its parts: "1 divided by 0"."""
+    """Return a description of an undefined operation with the values of its operands: "1 divided by 0".
+
+    A function gives "f of 1, 2", a power "the power 0.5 of -1", a curve the range that the argument leaves.
+    """
     part_values = [float(evaluate(part, values)) for part in _find_active_parts(tree, values)]
     texts = [f"{number:.12g}" for number in part_values]
     match tree:
@@ -345,7 +352,11 @@ def _describe_part(tree: Expr, values: Values) -> str:
 
 
 def find_unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
-    """Return the drive whose second rate at t (s) is over 100 times that nearby, and thus unbounded; "" if none is."""
+    """Return the drive whose second rate at t (s) is over 100 times that nearby, and thus unbounded; "" if none is.
+
+    The second rates at t and at the next doubles are compared with those at t (1 ± 1e-4). NaN counts as infinite at t.
+    Of several drives the one with the largest rate is returned.
+    """
     zero = np.zeros(compiled.n)
     distance = 1e-4 * max(abs(t), 1e-9)
     times_t = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))

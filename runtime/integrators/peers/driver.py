@@ -218,7 +218,10 @@ class _Driver:
         self.is_after_change = False
 
     def _locate_event_and_refine_peaks(self, step: AcceptedStep) -> tuple[float, int] | None:
-        """Return time (s) and joint of the first contact event in the step, or None; refine force peaks before it."""
+        """Return time (s) and joint of the first contact event in the step, or None; refine force peaks before it.
+
+        The contact quantities are sampled on the dense output of the step. Without joints with play, nothing is done.
+        """
         if not self.contacts.count:
             return None
         t = step.compute_sample_times()

@@ -252,7 +252,8 @@ def _draw_forces(
     """Draw the force panels: forces in every scene, with their peaks (▾), and the ideal reaction over them, dashed.
 
     `panels` has the names of the series of each panel by title, in the order of `axes`. `runs`, the ideal runs
-    `references` and `colours` are by scene. The ideal reaction is that of the reference that ends last.
+    `references` and `colours` are by scene. The ideal reaction is the first series of the panel in the reference that
+    ends last. Scenes without a series of the panel are left out.
     """
     for ax, (title, names) in zip(axes, panels.items(), strict=True):
         available = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
@@ -310,7 +311,10 @@ def _wrap_label(ax: Axes, label: str) -> str:
 
 
 def _draw_orbits(subfigure: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
-    """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale."""
+    """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale.
+
+    A row has at most MAX_ORBIT_COLUMNS scenes. Joints without an eccentricity in a scene are left out there.
+    """
     scenes = list(runs)
     n_columns = min(len(scenes), MAX_ORBIT_COLUMNS)
     n_rows = -(-len(scenes) // n_columns)
