@@ -94,7 +94,7 @@ class Problem:
     state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one resumes
     method: str = "rk4"
     rtol: float = 0.0  # tolerance of methods that control their step
-    p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
+    p_motion: Array | None = None  # p without Baumgarte's gains, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # notes on the start, which come first in the run's notes
     start_is_sample: bool = True  # False: t[0] was not requested

@@ -106,12 +106,12 @@ _POWERS = tuple(Fraction(n, 2) for n in (4, 6, 2, 8, 3, 1, -2, -4, *range(10, 19
 class _Factor:
     """A unit symbol with its power, None if that is not a number.
 
-    `either`: the power may have the other sign, as m in `N/s m`.
+    `is_sign_ambiguous`: the power may have the other sign, as m in `N/s m`.
     """
 
     symbol: str
     power: Fraction | None
-    either: bool = False  # m in `N/s m`
+    is_sign_ambiguous: bool = False  # m in `N/s m`
 
 
 @dataclass(frozen=True)
@@ -366,7 +366,7 @@ def _iterate_listed_units(quantity: _Quantity) -> Iterator[str]:
     alternatives = [
         [
             (meant, factor.power, k)
-            for k in ((1, -1) if factor.either else (1,))
+            for k in ((1, -1) if factor.is_sign_ambiguous else (1,))
             for meant in _list_unit_meanings(factor.symbol)
         ]
         for factor in quantity.factors

@@ -18,7 +18,7 @@ from gudgeon.loading.cache import Cache, WriteFiles, compute_digest, get_default
 from gudgeon.loading.compiler import start_compiler, wait_for_compiler
 from gudgeon.loading.engine import compute_engine_digest, list_scene_texts
 from gudgeon.loading.library import Library, open_bundled_library, open_library
-from gudgeon.loading.optimized_library import QUICK_KIND, SOURCE, OptimizedLibrary, may_compile_in_background
+from gudgeon.loading.optimized_library import SOURCE, UNOPTIMIZED_KIND, OptimizedLibrary, may_compile_in_background
 from gudgeon.waiting.cancellation import report_work
 from gudgeon.waiting.programs import Programs
 
@@ -96,7 +96,7 @@ def _compile_unoptimized_library(
     command = compiler.find_compiler()
     flags = (*compiler.build_flags(portable, command, quick=True), *compiler.build_link_flags())
     library_key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
-    if cache.has_folder(QUICK_KIND, library_key):
+    if cache.has_folder(UNOPTIMIZED_KIND, library_key):
         return None
 
     def build_unoptimized_library(folder: Path) -> None:
@@ -106,7 +106,7 @@ def _compile_unoptimized_library(
             (folder / name).unlink()
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    entry = cache.fetch(QUICK_KIND, library_key, build_unoptimized_library)
+    entry = cache.fetch(UNOPTIMIZED_KIND, library_key, build_unoptimized_library)
     if not entry.is_relative_to(cache.root):
         return None
     optimized_library = OptimizedLibrary(

@@ -29,7 +29,7 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 if TYPE_CHECKING:
     import subprocess
 
-QUICK_KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
+UNOPTIMIZED_KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
 SOURCE = "source.json"
 # program of the other process
 PROGRAM = (
@@ -67,15 +67,15 @@ class OptimizedLibrary:
         self._process: subprocess.Popen[bytes] | None = None
         self._owner, self._lock = os.getpid(), Lock()
 
-    def start_process(self, quick_entry: Path, portable: bool) -> bool:
+    def start_process(self, unoptimized_entry: Path, portable: bool) -> bool:
         """Start the other process, which builds the optimized library; return False if it cannot be started.
 
-        It reads the kernel source from the cache entry `quick_entry` of the unoptimized library, without output and in
-        a session of its own. portable: for any processor of this architecture.
+        It reads the kernel source from the cache entry `unoptimized_entry`, without output and in a session of its own.
+        portable: for any processor of this architecture.
         """
         import subprocess
 
-        request = json.dumps([str(self._cache.root), str(quick_entry), portable])
+        request = json.dumps([str(self._cache.root), str(unoptimized_entry), portable])
         line = [sys.executable, "-c", PROGRAM, request, *sys.path]
         nothing = subprocess.DEVNULL
         with DelayedCtrlC() as ctrl_c, suppress(OSError):
@@ -137,9 +137,9 @@ def make_optimized_library(request: str) -> None:
 
     from gudgeon.loading.build import compile_kernels
 
-    root, quick_entry, portable = json.loads(request)
+    root, unoptimized_entry, portable = json.loads(request)
     os.nice(NICENESS)
-    if is_complete(Path(quick_entry)):
-        source = KernelSource.from_json(Path(quick_entry, SOURCE).read_bytes().decode())
+    if is_complete(Path(unoptimized_entry)):
+        source = KernelSource.from_json(Path(unoptimized_entry, SOURCE).read_bytes().decode())
         with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other
             compile_kernels(source, portable=portable, cache=Cache(root))
