@@ -30,7 +30,9 @@ MAX_DEPTH_OVER_RADIUS = 0.1  # of the radius: largest penetration of a journal (
 def check_journal_positions(linkage: Linkage, p: Array) -> None:
     """Check the positions of journals and sliders with play that the file's start sets.
 
-    Raises AssemblyError for a penetration beyond the validity of contact laws, and for a slider that can turn over.
+    A journal may lie as deep as MAX_DEPTH_OVER_RADIUS of the bearing's radius in the wall, with rigid surfaces only
+    CLEARANCE_TOL of the clearance. Raises AssemblyError for a deeper one, which is beyond the validity of contact laws,
+    and for a slider that can turn over.
     """
     for joint in linkage.source.clearances:
         if joint.name.endswith(".front_upper"):

@@ -144,7 +144,9 @@ def find_nearby_configurations(
 ) -> list[Array]:
     """Return q and up to `n_configurations` configurations near it: random steps, closed by Newton's method.
 
-    equation_indices: indices of the equations that must be satisfied. Configurations that do not close are left out.
+    A random step is of the size NEARBY_DISTANCE (rad, or times the mechanism's size), the same in every run.
+    equation_indices: indices of the equations that must be satisfied. Configurations that do not close in 50 steps are
+    left out.
     """
     if not n_configurations:  # NumPy's random numbers are imported on request
         return [q]

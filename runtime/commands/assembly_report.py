@@ -104,10 +104,10 @@ def assemble_scenes(
     return Findings(scenes, errors, assemblies)
 
 
-def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScene:
+def _assemble_scene(linkage: NumPyLinkage, equation_indices: Sequence[int]) -> AssembledScene:
     """Assemble one linkage and return its position, mobility and the guesses that are not followed.
 
-    rows: indices of the scene's constraint equations; joints with play have none. Raises AssemblyError if the linkage
+    equation_indices: those of the scene; joints with play have no equations. Raises AssemblyError if the linkage
     without play has no position or no velocities, or if a journal is too deep in its bearing's wall.
     """
     p = linkage.p
@@ -119,7 +119,11 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
             raise make_closure_error(problem, q)
         compute_start_velocities(problem, q)
         closed_mobility = find_mobility(linkage, p, q)
-        mobility = closed_mobility if len(rows) == closed_mobility.rows else find_mobility(linkage, p, q, rows)
+        mobility = (
+            closed_mobility
+            if len(equation_indices) == closed_mobility.rows
+            else find_mobility(linkage, p, q, equation_indices)
+        )
     return AssembledScene(linkage, q, closed_mobility, mobility, find_guess_deviations(linkage, p, q))
 
 

@@ -361,7 +361,11 @@ def _compute_arrow_vector(configuration: Configuration, layout: Layout, part: Pa
     load = np.array(configuration.loads.get(part.name, (0.0, 0.0)))
     if not (np.isfinite(load).all() and load.any()):
         return np.zeros(2)
-    return load * layout.newton if layout.newton > 0.0 else ARROW_LENGTH * layout.unit * unit_vector(load)
+    return (
+        load * layout.metres_per_newton
+        if layout.metres_per_newton > 0.0
+        else ARROW_LENGTH * layout.unit * unit_vector(load)
+    )
 
 
 def _draw_dry_friction(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:

@@ -33,13 +33,13 @@ class Layout:
 
     `unit`: half a bar's width (m). `ground_directions`: for a joint, cylinder or spring on the ground the direction of
     the ground from it, (2,). `travel`: for a sliding joint the smallest and largest position along its axis (m), over
-    all configurations. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
+    all configurations. `metres_per_newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
     """
 
     unit: float
     ground_directions: Mapping[str, Array]
     travel: Mapping[str, tuple[float, float]]
-    newton: float = 0.0
+    metres_per_newton: float = 0.0
 
 
 def make_layout(configurations: Sequence[Configuration], start_configuration: Configuration | None = None) -> Layout:

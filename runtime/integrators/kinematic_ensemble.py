@@ -122,9 +122,9 @@ class KinematicEnsemble:
     ) -> None:
         """Compute the runs with these indices in the calling thread, without Python's global lock.
 
-        In `lanes`, several runs are computed at once, each in a row of `storages`; otherwise the first row is used.
-        Runs that are over are skipped. No run begins once the batch is ending. `is_complete`: with all states and
-        works, and without the series of `set_series`.
+        In `lanes`, several runs are computed at once, each in a row of `storages` (memory of C); otherwise the first
+        row is used, one run after the other. Runs that are over are skipped. No run begins once the batch is ending.
+        `is_complete`: with all states and works, and without the series of `set_series`.
         """
         struct = self._complete_struct if is_complete else self._struct
         self.compiled.lib.switch_library_if_ready()

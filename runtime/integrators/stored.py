@@ -221,7 +221,8 @@ class StoredRuns:
     def store_trajectory(self, i: int, trajectory: Trajectory) -> None:
         """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays.
 
-        The run is marked as over, and an error is recorded in `failures`.
+        The run is marked as over. Its status tells whether it ended before its last time or was interrupted; an error
+        is recorded in `failures`. Contacts and events are stored as lists.
         """
         x, k, N, n = self.arrays, int(self.arrays["sample_block"][i]), len(trajectory.t), self.compiled.n
         for columns, values in (

@@ -79,8 +79,8 @@ class Times:
     def select_requested_samples(self, values: Array) -> Array:
         """Return the samples of all runs, (n, N, …), at the requested times, (n, N', …).
 
-        Starts that were not requested are left out. Runs with fewer times are filled with NaN, arrays of integers with
-        0. A view is returned if all runs, or none, requested their start.
+        Starts that were not requested are left out (n_skipped is 1 for such a run). Runs with fewer times are filled
+        with NaN, arrays of integers with 0. A view is returned if all runs, or none, requested their start.
         """
         if (self.n_skipped == self.n_skipped[:1]).all():
             return values[:, self.n_skipped[:1].sum() :]

@@ -132,7 +132,8 @@ class Curve:
     def evaluate(self, x: Any, order: int = 0) -> Any:
         """Return the values or derivatives of the given order (0 to 3) at x, a number or an array, in SI.
 
-        Outside its range a curve is periodic, constant (hold) or linear as its options say, else NaN.
+        At a knot the piece to the right counts. Outside its range a curve is periodic, constant (hold) or linear as its
+        options say, else NaN.
         """
         x = np.asarray(x, dtype=float)
         (knots, pieces), first, last = self._tables, self.x[0], self.x[-1]

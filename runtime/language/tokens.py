@@ -153,8 +153,8 @@ class Tokenizer:
     def _parse_number(self, literal: str, start: int) -> Token:
         """Return the token of a number or pi in SI, including the unit that follows it, and advance.
 
-        literal: its text at offset `start`. Raises ExpressionError for values out of range, UnitError for unknown
-        units.
+        literal: its text at offset `start`. Raises ExpressionError for values out of range or below the smallest normal
+        double, UnitError for unknown units.
         """
         value = Fraction(math.pi) if literal == "pi" else self._parse_literal(literal, start)
         unit, end = self._parse_following_unit(start)

@@ -149,7 +149,7 @@ def iterate_units(expr: Expr) -> Iterator[str]:
 def replace_names(expr: Expr, replacements: Mapping[str, Expr]) -> Expr:
     """Return a copy of an expression in which the names in `replacements` are replaced by their trees.
 
-    Other names remain. All occurrences of a name share one tree object.
+    Other names and numbers remain. All occurrences of a name share one tree object.
     """
     match expr:
         case Name():

@@ -262,7 +262,8 @@ def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ..
 def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) -> None:
     """Set forces in an Evaluation to NaN, in place, if redundant constraints do not determine them.
 
-    If masses are missing, all forces, energies and powers become NaN.
+    They are the multipliers, reactions and torques of the joints and drives in source.indeterminate. If masses are
+    missing, all forces, energies and powers become NaN.
     """
     s = compiled.source
     for field_values in (

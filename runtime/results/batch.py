@@ -411,8 +411,8 @@ def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
 def _find_stored_series(batch: Batch, name: str) -> Array | None:
     """Return a stored series (n, N), or a copy of a column of the stored q, v, work or state.
 
-    Contact states are NaN after the last sample of a run. Returns None for any other series, and for "t" in a batch
-    with states.
+    Stored series are those that `simulate_many` kept (batch.kept). Contact states are NaN after the last sample of a
+    run. Returns None for any other series, and for "t" in a batch with states.
     """
     if name in batch.kept:
         return batch.kept[name]
