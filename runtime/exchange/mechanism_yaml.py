@@ -167,10 +167,11 @@ class _Writer:
         (x_tail, y_tail), (x_head, y_head) = ends  # type: ignore[misc]
         return math.atan2(y_head - y_tail, x_head - x_tail)
 
-    def format_text(self) -> str:
+    def format_file(self) -> str:
         """Return the whole text of the mechanism file.
 
-        Comments at its head list what was assumed: masses, units and the notes of the linkage.
+        It has gravity, parameters (rates of the drives), bodies, ground points, joints, drives and guesses. Comments at
+        its head list what was assumed: masses, units and the notes of the linkage.
         """
         linkage = self.linkage
         notes = list(dict.fromkeys(linkage.notes))
@@ -256,7 +257,7 @@ def write_mechanism_text(linkage: Linkage) -> str:
     """Return the YAML text of a linkage. Raises InputError for a linkage without bodies."""
     if not linkage.bodies:
         raise InputError("the linkage has no moving body: expected a link with two joints")
-    return _Writer(linkage).format_text()
+    return _Writer(linkage).format_file()
 
 
 def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.files.trust import UntrustedPathError
-from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_complete
+from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_entry_complete
 from gudgeon.loading.library import Functions, Library
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
@@ -101,7 +101,7 @@ class OptimizedLibrary:
                 return not has_ended
             entry = self._cache.root / "libraries" / self._key
             with suppress(GudgeonError, OSError, UntrustedPathError):  # the next start builds it again and reports
-                if is_complete(entry):
+                if is_entry_complete(entry):
                     self._switch_functions(functions, entry)
             return False
         finally:
@@ -139,7 +139,7 @@ def make_optimized_library(request: str) -> None:
 
     root, unoptimized_entry, portable = json.loads(request)
     os.nice(NICENESS)
-    if is_complete(Path(unoptimized_entry)):
+    if is_entry_complete(Path(unoptimized_entry)):
         source = KernelSource.from_json(Path(unoptimized_entry, SOURCE).read_bytes().decode())
         with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other
             compile_kernels(source, portable=portable, cache=Cache(root))
