@@ -211,7 +211,7 @@ class StoredRuns:
         They are stored in `contacts`, the index of the first contact of each run in `first_contact_indices`.
         """
         if not self.python_lists:
-            if not self.fetched.all:
+            if not self.fetched.thread_contacts:
                 return  # they are empty already
             self.contacts, self.first_contact_indices = self.fetched.join_contacts(self.n)
             return
