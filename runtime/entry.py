@@ -21,7 +21,8 @@ WRITE_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # of standa
 def main() -> None:
     """Run the command `gudgeon`, as its entry point, and exit with its code.
 
-    SIGTERM and SIGHUP are treated as Ctrl-C and give the exit code 128 + number. Matplotlib opens no windows.
+    SIGTERM and SIGHUP are treated as Ctrl-C and give the exit code 128 + number, unless their default action was
+    changed before. Matplotlib opens no windows.
     """
     _prepare_streams()
     declare_program()
@@ -46,7 +47,8 @@ def main() -> None:
 def _run_command() -> None:
     """Run the command line; exit with a short message after Ctrl-C or an error of standard output.
 
-    A reader that closes the pipe early gets no message. Other errors are passed on.
+    The exit code is INTERRUPTED after Ctrl-C and 1 after an error of standard output. A reader that closes the pipe
+    early gets no message. Other errors are passed on.
     """
     try:
         from gudgeon.cli import main

@@ -29,7 +29,7 @@ from PIL import Image
 
 import gudgeon
 from gudgeon.files.writing import PART
-from gudgeon.loading.cache import is_complete
+from gudgeon.loading.cache import is_entry_complete
 from gudgeon.results.files.hdf5 import is_damaged
 from tests.pump import TEXT
 
@@ -113,7 +113,9 @@ def broken_cache(cache: Path) -> list[str]:
     left = [f"cache/aside/{path.name} is left" for path in cache.glob("aside/*")]
     kinds = ("models", "libraries", "engines", "compilers")
     entries = [entry for kind in kinds for entry in cache.glob(f"{kind}/*")]
-    return left + [f"{entry.parent.name}/{entry.name} is not whole" for entry in entries if not is_complete(entry)]
+    return left + [
+        f"{entry.parent.name}/{entry.name} is not whole" for entry in entries if not is_entry_complete(entry)
+    ]
 
 
 def interrupt(folder: Path, words: str, moment: float, found: Found) -> None:

@@ -37,10 +37,10 @@ class Assembly:
 def find_assemblies(
     linkage: Linkage, p: Array, q: Array, movable_coordinates: Sequence[str], t: float = 0.0
 ) -> list[Assembly]:
-    """Find assemblies of a linkage by Newton's method from random angles; return them, that of the start q (n,) first.
+    """Find assemblies of a linkage by Newton's method from random starts; return them, that of the start q (n,) first.
 
     movable_coordinates: names of coordinates that can move; they are held at their values in q, unless the file sets
-    them. t: time of the drives, s. Each assembly has a guess that selects it.
+    them. t: time of the drives, s. Each assembly has a guess that selects it, and the error of the file's guess there.
     """
     index_of = {name: k for k, name in enumerate(linkage.source.coordinates)}
     free = [name for name in movable_coordinates if name not in linkage.source.start_set]
@@ -65,8 +65,9 @@ def find_assemblies(
 def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> list[Array]:
     """Return the configurations found from random starts, without repetitions; `start` is the first.
 
-    The search ends after MAX_TRIES starts, or MAX_IDLE_TRIES successive ones without a new result. Angles that differ
-    by full turns are the same.
+    A start differs from `start` by up to π in angles and the mechanism's size in positions; set coordinates keep their
+    values. Newton's method must close it, with all bodies in range. The search ends after MAX_TRIES starts, or
+    MAX_IDLE_TRIES successive ones without a new result. Angles that differ by full turns are the same.
     """
     rng, configurations, idle = np.random.default_rng(1), [start], 0
     spread = np.where(problem.is_angle, np.pi, problem.size)
@@ -117,8 +118,9 @@ def _select_distinguishing_coordinates(
 ) -> list[int]:
     """Return the indices of few coordinates by which all configurations can be distinguished.
 
-    They are selected greedily by the number of pairs that differ in them by more than MIN_DIFFERENCE.
-    `preferred_order`: indices of coordinates, the first of which is preferred among equals.
+    They are selected greedily by the number of pairs that differ in them by more than MIN_DIFFERENCE. If no coordinate
+    separates the remaining pairs by that much, the one whose smallest difference is largest is added, and the selection
+    ends. `preferred_order`: indices of coordinates, the first of which is preferred among equals.
     """
     selected: list[int] = []
     pairs = [_compute_differences(problem, x, y) for x, y in combinations(configurations, 2)]

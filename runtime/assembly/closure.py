@@ -138,12 +138,13 @@ class AssemblyProblem:
         """Return the closed configuration nearest to the guess and True; or that of least residual and False.
 
         Newton's result may not be the nearest. If it is far from the guess, a start mirrored in the guess is tried. If
-        all results are far from the guess or not closed, random starts are tried.
+        all results are far from the guess or not closed, random starts are tried. True is returned also if all closed
+        results are far from the guess. The guess and False are returned if no result has its bodies in range.
         """
         guess = self.build_first_guess()
         first_result = self.solve_newton(guess)
         if self._is_assembly(first_result) and self._compute_relative_guess_error(first_result) < 1.0:
-            best = self._search_beyond_guess(first_result, guess)
+            best = self._search_mirrored_starts(first_result, guess)
             if self._compute_relative_guess_error(best) < 1.0:
                 return best, True
         results = [first_result]
@@ -170,10 +171,13 @@ class AssemblyProblem:
         """Return whether a configuration is closed with all bodies in range (`is_closed`, `has_bodies_in_range`)."""
         return self.is_closed(q) and self.has_bodies_in_range(q)
 
-    def _search_beyond_guess(self, closed_configuration: Array, guess: Array) -> Array:
+    def _search_mirrored_starts(self, closed_configuration: Array, guess: Array) -> Array:
         """Return `closed_configuration`, or one nearer to the guess, found from starts mirrored in the guess.
 
-        Nothing is searched if the error of the guess is below MIN_MIRRORED_ERROR of the limits for more starts.
+        Two starts are closed by Newton's method: 2 guess − configuration for the guessed coordinates only, then for
+        all. A result replaces the configuration if it is an assembly, and its distance from the guess is smaller by the
+        fraction MIN_RELATIVE_GAIN. Nothing is searched if the error of the guess is below MIN_MIRRORED_ERROR of the
+        limits for more starts.
         """
         if self._compute_relative_guess_error(closed_configuration) < MIN_MIRRORED_ERROR:
             return closed_configuration
@@ -223,8 +227,10 @@ class AssemblyProblem:
     ) -> Array:
         """Return the configuration that minimizes the sum of squares of residuals, by Levenberg–Marquardt steps from q.
 
-        `compute_residuals` and `compute_jacobian` are functions of the configuration (n,). The last improved
-        configuration is returned where a value is not finite or no further improvement is found.
+        `compute_residuals` and `compute_jacobian` are functions of the configuration (n,). Coordinates are scaled by
+        the mechanism's size. The damping falls after a step that reduces the norm and grows after another, which is
+        discarded. The last improved configuration is returned after 2 MAX_STEPS steps, or where a value is not finite
+        or no further improvement is found.
         """
         damping, residual = 1e-3, compute_residuals(q)
         scale = np.where(self.is_angle, 1.0, self.size)
@@ -274,9 +280,11 @@ class AssemblyProblem:
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < MAX_RELATIVE_DISTANCE * self.max_distance)
 
     def _compute_relative_guess_error(self, q: Array) -> float:
-        """Return the largest error of guessed angles, positions and points, relative to the limits for more starts.
+        """Return the largest error of guessed angles, positions and points at q, relative to the limits for more
+        starts.
 
-        It is 0 without guesses.
+        The limits are MAX_GUESS_ERROR_RAD for angles, and MIN_DIFFERENCE of the mechanism's size for lengths (for
+        positions of the distance from the origin, if larger). It is 0 without guesses.
         """
         differences = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.first_guess, 0.0)
         position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(
@@ -295,9 +303,10 @@ class AssemblyProblem:
     def _draw_random_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
         """Yield random starts around the guess, the same in every run; driven and set coordinates keep their values.
 
-        Each draw is followed by its mirror image in the axes of the bodies. A linkage that is turned or mirrored with
-        its guess thus finds a start that is turned or mirrored. angle_range: largest change of guessed angles, rad: a
-        guess may lie where every search ends in a minimum of the residual above zero.
+        angle_range: largest change of guessed angles, rad. Guessed positions change by at most angle_range/π of the
+        mechanism's size, other coordinates by π or by the size. Each start is followed by its mirror image in the axes
+        of the bodies, so that a linkage that is turned or mirrored with its guess finds the same assembly. The change
+        is needed if every search from the guess ends in a minimum of the residual above zero.
         """
         rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
@@ -327,8 +336,9 @@ class AssemblyProblem:
     def solve_newton(self, q: Array) -> Array:
         """Return the result of Newton's method with line search from q; q itself if it is closed already.
 
-        The first step changes positions only. A Jacobian is reused while the norm falls to a tenth in each step. The
-        result may not be closed: callers test it.
+        The first step changes positions only. A Jacobian is reused while the norm falls to a tenth in each step. It
+        ends after MAX_STEPS steps or without a shorter step that reduces the norm. The result may not be closed:
+        callers test it.
         """
         scaled_residual, rounding = self._compute_scaled_residual(q), ROUNDING_TOL * self.max_distance / self.size
         if float(np.linalg.norm(scaled_residual)) < rounding:

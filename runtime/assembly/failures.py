@@ -79,8 +79,9 @@ def make_velocity_error(problem: AssemblyProblem, matrix: Array, residuals: Arra
 def make_closure_error(problem: AssemblyProblem, q: Array) -> AssemblyError:
     """Return the error for a linkage that does not close: open equations with their residuals, and remedies.
 
-    q: the best configuration that was found. The message may name lengths with a wrong unit, or a link whose change
-    would close the linkage.
+    q: the best configuration that was found. At most six equations are named, the largest residuals first. The message
+    may name lengths with a wrong unit, or a link whose change would close the linkage. If a residual is not finite, the
+    message explains the undefined expression instead.
     """
     scaled_residuals = np.abs(problem.compute_residual(q) / problem.row_scale)
     if not np.isfinite(scaled_residuals).all():
@@ -136,18 +137,18 @@ def _describe_unit_mistake(problem: AssemblyProblem) -> str:
     """
     source = problem.linkage.source
     sizes = {
-        slot.address: abs(float(problem.p[k]))
-        for k, slot in enumerate(source.slots)
-        if slot.dimension == (1, 0, 0) and slot.address.startswith(("bodies.", "ground.", "joints."))
+        parameter.address: abs(float(problem.p[k]))
+        for k, parameter in enumerate(source.slots)
+        if parameter.dimension == (1, 0, 0) and parameter.address.startswith(("bodies.", "ground.", "joints."))
     }
     order = sorted((name for name, size in sizes.items() if size > 0.0), key=lambda name: -sizes[name])
     for k, (name, after) in enumerate(pairwise(order), 1):
         if sizes[name] > MIN_UNIT_RATIO * sizes[after] and sizes[name] >= 1.0 and 2 * k <= len(order):
             message = ", ".join(f"{long} is {format_length(sizes[long])}" for long in order[:k][:3])
-            meant = f"is it {sizes[order[0]]:.4g} mm" if k == 1 else "are they in mm"
+            question = f"is it {sizes[order[0]]:.4g} mm" if k == 1 else "are they in mm"
             return (
-                f"\n  {message}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? numbers without a"
-                " unit are in m"
+                f"\n  {message}, {sizes[name] / sizes[after]:,.0f} times the next longest: {question}? numbers without"
+                " a unit are in m"
             )
     return ""
 
@@ -182,28 +183,39 @@ def find_wrong_lengths(problem: AssemblyProblem, q: Array) -> list[WrongLength]:
 
 
 def _search_wrong_lengths(problem: AssemblyProblem, q: Array) -> Iterator[WrongLength]:
-    """Yield the bodies of which a change of length would close the equations, in the order of the file."""
+    """Yield the bodies of which a change of length would close the equations, in the order of the file.
+
+    The points of joints and drives on a body are scaled together by the relative change of
+    `_find_closing_length_change`. The reported length is the distance of the two points that are furthest apart. Bodies
+    without two such positions are skipped. q: first configuration of the search.
+    """
     source = problem.linkage.source
     connected = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
-        arms = [(p, find_point_in_body(problem.p, p)) for p in source.points if p.body == index and p.name in connected]
-        distances = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
+        positions = [
+            (p, find_point_in_body(problem.p, p)) for p in source.points if p.body == index and p.name in connected
+        ]
+        distances = {(p1, p2): float(np.hypot(*(r1 - r2))) for (p1, r1), (p2, r2) in combinations(positions, 2)}
         furthest_points = max(distances, key=distances.__getitem__, default=None)
         if furthest_points is not None and distances[furthest_points] > 0.0:
-            one, other = (point.name.partition(".")[2] for point in furthest_points)
-            parameter_indices = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
+            first_name, second_name = (point.name.partition(".")[2] for point in furthest_points)
+            parameter_indices = sorted({k for point, _ in positions for k in (point.x, point.y) if k >= 0})
             relative_change = _find_closing_length_change(problem, q, parameter_indices)
             if relative_change is not None:
                 yield WrongLength(
-                    body.name, (one, other), distances[furthest_points], relative_change * distances[furthest_points]
+                    body.name,
+                    (first_name, second_name),
+                    distances[furthest_points],
+                    relative_change * distances[furthest_points],
                 )
 
 
 def _find_closing_length_change(problem: AssemblyProblem, q: Array, length_indices: list[int]) -> float | None:
     """Return the smallest relative change of some lengths that closes the equations; None if none does.
 
-    length_indices: the lengths' indices in p. q: first configuration. Newton's method on the norm of the least residual
-    is followed by bisection between open and closed. Changes outside MIN_CHANGE to MAX_CHANGE are not considered.
+    length_indices: the lengths' indices in p; they are scaled together. q: first configuration. Newton's method on the
+    norm of the least-squares residual is followed by bisection between open and closed. Changes outside MIN_CHANGE to
+    MAX_CHANGE are not considered; None also for a residual that is not finite or hardly depends on the lengths.
     """
     p, open_change, closing_change, change = problem.p, 0.0, None, 0.0
 

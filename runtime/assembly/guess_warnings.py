@@ -25,9 +25,9 @@ MAX_ANGLE_DEVIATION = np.pi / 6  # rad; smaller deviations from a guessed angle 
 def find_guess_deviations(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     """Return {name: deviation} of the guessed coordinates and points from which the assembled position q deviates.
 
-    Deviations of coordinates are q minus the guess (rad or m), those of points are distances (m). Only deviations above
-    30° for angles, and above 0.2 of the mechanism's size (of a coordinate's guess, if larger) for lengths, are
-    returned.
+    Deviations of coordinates are q minus the guess (rad or m; angles within a half turn), those of points are distances
+    (m). Only deviations above MAX_ANGLE_DEVIATION (30°) for angles, and above MIN_DIFFERENCE (0.2) of the mechanism's
+    size (of a coordinate's guess, if larger) for lengths, are returned.
     """
     source, differences = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
@@ -69,15 +69,15 @@ def warn_guess_deviations(source: KernelSource, differences: Mapping[str, float]
 def warn_guess_deviations_in_runs(source: KernelSource, guess_deviations: Sequence[Mapping[str, float]]) -> None:
     """Issue one warning for all runs of a batch: guesses from which starts deviate, number of runs, largest deviation.
 
-    guess_deviations: {name: difference} of each run. In a study they are added to the list of
-    COLLECTED_GUESS_DEVIATIONS instead.
+    guess_deviations: {name: deviation} of each run, as of `find_guess_deviations`; without any there is no warning. In
+    a study they are appended to the list in COLLECTED_GUESS_DEVIATIONS instead.
     """
     if (collected := COLLECTED_GUESS_DEVIATIONS.get()) is not None:  # a study with many batches
         collected.extend(guess_deviations)
         return
     message = []
-    for name in dict.fromkeys(name for off in guess_deviations for name in off):
-        deviations = [off[name] for off in guess_deviations if name in off]
+    for name in dict.fromkeys(name for run_deviations in guess_deviations for name in run_deviations):
+        deviations = [run_deviations[name] for run_deviations in guess_deviations if name in run_deviations]
         largest = format_guess_difference(name, max(map(abs, deviations)))
         message.append(f"{name} in {len(deviations)} of {len(guess_deviations)} runs by up to {largest}")
     if message:

@@ -30,7 +30,9 @@ MAX_DEPTH_OVER_RADIUS = 0.1  # of the radius: largest penetration of a journal (
 def check_journal_positions(linkage: Linkage, p: Array) -> None:
     """Check the positions of journals and sliders with play that the file's start sets.
 
-    Raises AssemblyError for a penetration beyond the validity of contact laws, and for a slider that can turn over.
+    A journal may lie as deep as MAX_DEPTH_OVER_RADIUS of the bearing's radius in the wall, with rigid surfaces only
+    CLEARANCE_TOL of the clearance. Raises AssemblyError for a deeper one, which is beyond the validity of contact laws,
+    and for a slider that can turn over.
     """
     for joint in linkage.source.clearances:
         if joint.name.endswith(".front_upper"):
@@ -46,10 +48,10 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
                 " because the surfaces of this joint are rigid (newton_restitution)\n"
                 f"  write start.play.{joint.name}: {{e: [{limit} mm, 0 mm]}} for a start in contact, or less"
             )
-        deepest = MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
-        if e - c > deepest:
-            length, limit = format_distinct_numbers(1e3 * e, 1e3 * (c + deepest))
-            bare = "; a number without a unit is in m" if e > MIN_UNIT_RATIO * (c + deepest) else ""
+        max_depth = MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
+        if e - c > max_depth:
+            length, limit = format_distinct_numbers(1e3 * e, 1e3 * (c + max_depth))
+            bare = "; a number without a unit is in m" if e > MIN_UNIT_RATIO * (c + max_depth) else ""
             raise AssemblyError(
                 f"start.play.{joint.name}.e has a length of {length} mm: expected {limit} mm at most, the clearance of"
                 f" {1e3 * c:.4g} mm and a tenth of the bearing's radius, up to which contact laws are valid\n"
@@ -120,7 +122,7 @@ def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[
     """Yield the joints with play whose positions the file's start sets, each with |e| and the clearance c (m).
 
     For a corner, e is its approach to the wall; for a contour, c is the largest clearance. Nothing is yielded if the
-    file's start sets no such position.
+    file's start sets no such position. If it sets any, bearings that it leaves out are yielded with |e| = 0.
     """
     source = linkage.source
     if not source.start_apart:
@@ -173,7 +175,9 @@ def _describe_corner_without_onset(
 ) -> Iterator[str]:
     """Yield a note on the corner of a slider if it begins in contact without approaching its wall (δ̇ ≤ 0).
 
-    joint_index: of the joint among those with play. Other arguments as in `describe_contacts_without_onset`.
+    Nothing is yielded if the force does not depend on the approach speed: it is tested at velocities nearest to v with
+    δ̇ = 1 m/s. joint_index: of the joint among those with play. Other arguments as in
+    `describe_contacts_without_onset`.
     """
     joint = compiled.source.clearances[joint_index]
     depth, deltadot = compute_corner_penetration(compiled, p, t, q, v, joint_index)
@@ -212,10 +216,10 @@ def find_eccentricity(
 def _depends_on_approach_speed(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array, joint_index: int
 ) -> bool:
-    """Return whether the force of a joint at this state differs for a small and an infinite approach speed δ̇⁻.
+    """Return whether the force of a joint at this state differs between approach speeds δ̇⁻ of 1 mm/s and infinity.
 
     v: velocities at which the surfaces approach. joint_index: of the joint among those with play. True is returned if
-    the state cannot be evaluated.
+    the state cannot be evaluated; the run then reports it.
     """
     contact_states = np.array([discrete_states, discrete_states])
     contact_states[:, joint_index] = 1e-3, np.inf

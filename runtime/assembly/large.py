@@ -74,8 +74,8 @@ def solve_damped_least_squares(matrix: Array, right_hand_side: Array) -> Array:
 def has_independent_rows(matrix: Array, relative_limit: float) -> bool:
     """Return whether all rows are independent, by an estimate of the smallest singular value (inverse iteration).
 
-    It must exceed ten times `relative_limit` times a bound of the largest. Return False too for numbers that are not
-    finite, no rows, or more rows than columns.
+    It must exceed ten times `relative_limit` times a bound of the largest singular value. Return False too for numbers
+    that are not finite, no rows, or more rows than columns.
     """
     if not len(matrix) or len(matrix) > matrix.shape[1] or not np.isfinite(matrix).all():
         return False
@@ -108,10 +108,11 @@ def estimate_left_null_maxima(matrix: Array, relative_limit: float) -> Array:
     return np.asarray(np.abs(x).max(axis=1, initial=0.0), dtype=np.float64)
 
 
-def compute_rank_by_rows(matrix: Array, relative_limit: float) -> int:
-    """Return the number of independent rows by Gram–Schmidt with pivoting.
+def compute_rank_by_gram_schmidt(matrix: Array, relative_limit: float) -> int:
+    """Return the rank of a matrix by Gram–Schmidt orthogonalization of its rows, the longest remaining row first.
 
-    relative_limit: remainder, relative to the longest row, at which a row counts as dependent.
+    relative_limit: length of a remaining row, relative to the longest row of the matrix, at which it counts as
+    dependent.
     """
     remaining, limit = np.array(matrix), 0.0
     for k in range(min(matrix.shape)):

@@ -79,8 +79,8 @@ def compute_point_position(source: KernelSource, p: Array, q: Array, point: Poin
 def project_state(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[Array, Array]:
     """Return q and v (n,) projected onto the constraints at time t by the smallest changes in the norm of M.
 
-    Dependent equations, as for links in line, are satisfied in the least-squares sense. Values that are not finite are
-    returned unchanged.
+    q is changed by at most N_NEWTON_STEPS Newton steps, v once. The result is not tested. Dependent equations, as for
+    links in line, are satisfied in the least-squares sense. Values that are not finite are returned unchanged.
     """
     root = np.sqrt(compute_norm_weights(compiled.source, p, compiled.mass(p)))
     for _ in range(N_NEWTON_STEPS):

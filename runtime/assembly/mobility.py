@@ -24,17 +24,18 @@ MIN_INDEPENDENT_MOTION = 1e-6  # of a coordinate's largest motion: smallest moti
 class Mobility:
     """Hold the mobility of a linkage without play, whose constraint equations include its drives.
 
-    `freedoms` by rank, `gruebler` by count (n − equations); `along`: coordinates that describe the degrees of freedom;
-    `loose`: bodies not connected to the ground; `redundant`: number of redundant equations; `aligned`: how many more
-    equations are dependent at the start only, where links are in line.
+    `freedoms` by rank, `gruebler` by count (n − equations); `independent_coordinates`: names of coordinates that
+    describe the degrees of freedom; `unconnected_bodies`: bodies not connected to the ground; `redundant`: number of
+    redundant equations; `n_dependent_at_start`: how many more equations are dependent at the start only, where links
+    are in line.
     """
 
     coordinates: int
     rows: int
     freedoms: int
-    along: tuple[str, ...]
-    loose: tuple[str, ...]
-    aligned: int
+    independent_coordinates: tuple[str, ...]
+    unconnected_bodies: tuple[str, ...]
+    n_dependent_at_start: int
 
     @property
     def gruebler(self) -> int:
@@ -53,8 +54,9 @@ def find_mobility(
     """Return the mobility of a linkage assembled at q (n,), from the largest rank of Φ_q at q and near it.
 
     It contains the numbers of coordinates, equations and degrees of freedom, coordinates that describe the motion, and
-    unconnected bodies. `aligned` is by how much the rank at q itself is lower (links in line). equation_indices: those
-    of the equations that count, None for all. t: time of the drives, s. Raises ValueError if no Jacobian is finite.
+    unconnected bodies. `n_dependent_at_start` is by how much the rank at q itself is lower (links in line).
+    equation_indices: those of the equations that count, None for all. t: time of the drives, s. Raises ValueError if no
+    Jacobian is finite.
     """
     row_indices = list(range(len(linkage.source.start_rows))) if equation_indices is None else list(equation_indices)
     with np.errstate(all="ignore"):
@@ -65,15 +67,15 @@ def find_mobility(
         reversed(range(len(null_spaces))), key=lambda k: null_spaces[k].shape[1]
     )  # not the start, where links may align
     names, motions = linkage.source.coordinates, null_spaces[regular]
-    coordinate_names = tuple(names[k] for k in _select_describing_coordinates(motions, _list_preferred_order(names)))
-    aligned = null_spaces[0].shape[1] - motions.shape[1]
+    coordinate_names = tuple(names[k] for k in _select_independent_coordinates(motions, _list_preferred_order(names)))
+    n_dependent_at_start = null_spaces[0].shape[1] - motions.shape[1]
     return Mobility(
         len(names),
         len(row_indices),
         motions.shape[1],
         coordinate_names,
         _find_unconnected_bodies(linkage, matrices[regular]),
-        aligned,
+        n_dependent_at_start,
     )
 
 
@@ -91,7 +93,7 @@ def compute_free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -
 def check_degrees_of_freedom(expected_dof: float, location: Location, mobility: Mobility) -> None:
     """Raise BadValueError at `location` if the file states another number of degrees of freedom than was found."""
     if mobility.freedoms != expected_dof:
-        directions_text = f": {', '.join(mobility.along)}" if mobility.along else ""
+        directions_text = f": {', '.join(mobility.independent_coordinates)}" if mobility.independent_coordinates else ""
         message = (
             f"freedoms is {expected_dof:g}, but with all joints closed there are {mobility.freedoms}{directions_text}"
         )
@@ -113,23 +115,24 @@ def _list_preferred_order(names: tuple[str, ...]) -> list[int]:
     return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
 
 
-def _select_describing_coordinates(free_motions: Array, preferred_order: list[int]) -> list[int]:
-    """Return the indices of dof coordinates whose velocities determine each of the free motions (n, dof).
+def _select_independent_coordinates(free_motions: Array, preferred_order: list[int]) -> list[int]:
+    """Return the indices of dof independent coordinates: their velocities determine each of the free motions (n, dof).
 
-    They are selected in this order by Gram–Schmidt. Coordinates with a tenth or more of motion that is independent of
-    those selected are preferred.
+    They are selected in the order `preferred_order` by Gram–Schmidt. In a first pass, a tenth or more of a coordinate's
+    motion must be independent of the coordinates already selected; in a second pass, any motion above
+    MIN_INDEPENDENT_MOTION.
     """
     basis, selected = np.zeros((0, free_motions.shape[1])), list[int]()
     for independent_part in (0.1, 0.0):  # smallest independent fraction of a coordinate's motion
         for k in preferred_order:
-            rest = free_motions[k] - (basis @ free_motions[k]) @ basis
-            length = float(np.linalg.norm(rest))
+            remainder = free_motions[k] - (basis @ free_motions[k]) @ basis
+            length = float(np.linalg.norm(remainder))
             if (
                 len(selected) < free_motions.shape[1]
                 and length > MIN_INDEPENDENT_MOTION
                 and length > independent_part * float(np.linalg.norm(free_motions[k]))
             ):
-                basis, selected = np.vstack([basis, rest / length]), [*selected, k]
+                basis, selected = np.vstack([basis, remainder / length]), [*selected, k]
     return selected
 
 

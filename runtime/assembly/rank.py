@@ -19,7 +19,7 @@ import numpy as np
 
 from gudgeon.assembly.large import (
     MIN_SPARSE_COORDINATES,
-    compute_rank_by_rows,
+    compute_rank_by_gram_schmidt,
     estimate_left_null_maxima,
     has_independent_rows,
     solve_minimum_norm,
@@ -58,7 +58,7 @@ def compute_rank(matrix: Array, relative_limit: float = RANK_TOL) -> int:
         return (
             len(matrix)
             if has_independent_rows(matrix, relative_limit)
-            else compute_rank_by_rows(matrix, relative_limit)
+            else compute_rank_by_gram_schmidt(matrix, relative_limit)
         )
     return _compute_rank_by_svd(matrix, relative_limit)
 
@@ -144,7 +144,9 @@ def find_nearby_configurations(
 ) -> list[Array]:
     """Return q and up to `n_configurations` configurations near it: random steps, closed by Newton's method.
 
-    equation_indices: indices of the equations that must be satisfied. Configurations that do not close are left out.
+    A random step is of the size NEARBY_DISTANCE (rad, or times the mechanism's size), the same in every run.
+    equation_indices: indices of the equations that must be satisfied. Configurations that do not close in 50 steps are
+    left out.
     """
     if not n_configurations:  # NumPy's random numbers are imported on request
         return [q]
@@ -186,7 +188,11 @@ def list_redundant_equations(compiled: CompiledModel) -> list[int]:
 
 
 def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
-    """Raise AssemblyError if an equation that was redundant with the file's values removes a degree of freedom at q."""
+    """Raise AssemblyError if an equation that was redundant with the file's values removes a degree of freedom at q.
+
+    p: parameter values of the run; t: time, s. Nothing is checked without redundant equations, or if the integrated
+    equations depend on each other at q, as at a singular position.
+    """
     extra = list_redundant_equations(compiled)
     if not extra:
         return
@@ -203,8 +209,8 @@ def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Ar
 def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> SolverError | None:
     """Return the error for the first sample at which a trajectory violates a redundant equation; None if none does.
 
-    Of an interrupted run, at most MAX_CHECKED_SAMPLES samples are checked, the last one among them. Raises
-    KeyboardInterrupt.
+    A residual above MAX_REDUNDANT_VIOLATION (of the mechanism's size for lengths) is a violation. Of an interrupted
+    run, at most MAX_CHECKED_SAMPLES samples are checked, the last one among them. Raises KeyboardInterrupt.
     """
     compiled, p = problem.compiled, problem.p
     extra = list_redundant_equations(compiled)

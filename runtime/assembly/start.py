@@ -77,7 +77,8 @@ def _choose_rate_time(problem: AssemblyProblem) -> float:
 def compute_start_velocities(problem: AssemblyProblem, q: Array) -> Array:
     """Return q̇ (n,) with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M.
 
-    Raises AssemblyError if a rate is not finite or the equations contradict each other.
+    Joints with play whose rate of eccentricity the file's start sets get that rate. Raises AssemblyError if a rate is
+    not finite or the equations contradict each other.
     """
     names = {"x": "vx", "y": "vy", "theta": "omega"}
     expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in problem.coordinate_index)]

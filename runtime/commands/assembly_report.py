@@ -72,9 +72,10 @@ def assemble_scenes(
 ) -> Findings:
     """Assemble every scene of a mechanism; find its assemblies if `branches`, or if the linkage is small.
 
-    Small: up to MAX_SEARCHED_COORDINATES coordinates. settings: values by address that replace the file's; each applies
-    to the scenes that have the address. An error of a scene is stored in `errors` of the returned Findings. Raises
-    UnknownNameError for an address that no scene has, and InputError if the file's `freedoms` are wrong.
+    Small: up to MAX_SEARCHED_COORDINATES coordinates. Assemblies are those of the first scene that can be assembled.
+    settings: values by address that replace the file's; each applies to the scenes that have the address. An error of a
+    scene is stored in `errors` of the returned Findings. Raises UnknownNameError for an address that no scene has, and
+    InputError if the file's `freedoms` are wrong.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
@@ -96,15 +97,17 @@ def assemble_scenes(
             check_degrees_of_freedom(expected.value.value, expected.where, assembled_scene.closed_mobility)
         if not assemblies and (branches or linkage.n <= MAX_SEARCHED_COORDINATES):
             assemblies = tuple(
-                find_assemblies(linkage, linkage.p, assembled_scene.q, assembled_scene.closed_mobility.along)
+                find_assemblies(
+                    linkage, linkage.p, assembled_scene.q, assembled_scene.closed_mobility.independent_coordinates
+                )
             )
     return Findings(scenes, errors, assemblies)
 
 
-def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScene:
+def _assemble_scene(linkage: NumPyLinkage, equation_indices: Sequence[int]) -> AssembledScene:
     """Assemble one linkage and return its position, mobility and the guesses that are not followed.
 
-    rows: indices of the scene's constraint equations; joints with play have none. Raises AssemblyError if the linkage
+    equation_indices: those of the scene; joints with play have no equations. Raises AssemblyError if the linkage
     without play has no position or no velocities, or if a journal is too deep in its bearing's wall.
     """
     p = linkage.p
@@ -116,7 +119,11 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
             raise make_closure_error(problem, q)
         compute_start_velocities(problem, q)
         closed_mobility = find_mobility(linkage, p, q)
-        mobility = closed_mobility if len(rows) == closed_mobility.rows else find_mobility(linkage, p, q, rows)
+        mobility = (
+            closed_mobility
+            if len(equation_indices) == closed_mobility.rows
+            else find_mobility(linkage, p, q, equation_indices)
+        )
     return AssembledScene(linkage, q, closed_mobility, mobility, find_guess_deviations(linkage, p, q))
 
 
@@ -157,7 +164,10 @@ def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
 
 
 def _yield_mass_remark(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
-    """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
+    """Yield a remark (subject, text) if scenes with degrees of freedom need masses or inertias that the file lacks.
+
+    The text lists the scenes, which cannot be run, and the missing keys of each body with their locations.
+    """
     missing_texts = [
         f"{b.name} has no {' and no '.join(b.missing_keys)} ({b.where})"
         for b in mechanism.bodies.values()
@@ -189,20 +199,24 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
     )
     yield from (("start", message) for message in dict.fromkeys(journal_messages))
     closed = first.closed_mobility
-    if closed.loose:
-        yield "loose", f"no joint or drive connects {', '.join(closed.loose)} to the ground"
+    if closed.unconnected_bodies:
+        yield "loose", f"no joint or drive connects {', '.join(closed.unconnected_bodies)} to the ground"
     if closed.freedoms and mechanism.freedoms is None:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
         remedy = f"if that is intended, write freedoms: {closed.freedoms}"
-        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {remedy}"
+        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.independent_coordinates)}; {remedy}"
         yield from _yield_unattached_body_remarks(mechanism, closed)
     yield from _yield_mass_remark(mechanism, findings)
     if closed.redundant:
         rows = "1 row of Φ is" if closed.redundant == 1 else f"{closed.redundant} rows of Φ are"
         counted = f"{closed.gruebler} degrees of freedom by counting, {closed.freedoms} by rank"
         yield "redundant", f"{rows} redundant: {counted}"
-    if closed.aligned:
-        rows = "a row of Φ_q depends" if closed.aligned == 1 else f"{closed.aligned} rows of Φ_q depend"
+    if closed.n_dependent_at_start:
+        rows = (
+            "a row of Φ_q depends"
+            if closed.n_dependent_at_start == 1
+            else f"{closed.n_dependent_at_start} rows of Φ_q depend"
+        )
         yield (
             "singular",
             (
@@ -226,7 +240,7 @@ def _yield_unattached_body_remarks(mechanism: Mechanism, mobility: Mobility) -> 
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
         other = drive.reference or "ground"
-        moves = any(name.rpartition(".")[0] == drive.body for name in mobility.along)
+        moves = any(name.rpartition(".")[0] == drive.body for name in mobility.independent_coordinates)
         if drive.kind == "angle" and moves and frozenset((drive.body, other)) not in joined:
             reference = "the ground" if other == "ground" else other
             yield "shaft", f"no joint connects {drive.body} to {reference}, the reference of drive {drive.name}"
@@ -239,9 +253,9 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
     """
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
-        slot.address: abs(float(p[k]))
-        for k, slot in enumerate(source.slots)
-        if slot.dimension == (1, 0, 0) and not slot.address.startswith(("parameters.", "start."))
+        parameter.address: abs(float(p[k]))
+        for k, parameter in enumerate(source.slots)
+        if parameter.dimension == (1, 0, 0) and not parameter.address.startswith(("parameters.", "start."))
     }
     address = max(lengths, key=lengths.__getitem__, default="")
     if not address or lengths[address] <= MAX_LENGTH:
@@ -254,8 +268,10 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
 
 
 def _yield_ambiguity_remark(findings: Findings) -> Iterator[tuple[str, str]]:
-    """Yield a remark if several assemblies follow the guesses of the file equally well, with a guess that separates
-    them.
+    """Yield a remark if several assemblies follow the guesses of the file equally well.
+
+    It is a pair (subject, text). The text names a coordinate whose guess separates them, with its value in the present
+    start and in the others.
     """
     if not (equivalent_assemblies := findings.equivalent_assemblies):
         return
@@ -288,7 +304,10 @@ def _format_guess_value(name: str, x: float) -> str:
 
 
 def yield_assembly_lines(findings: Findings) -> Iterator[str]:
-    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was searched."""
+    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was searched.
+
+    The assembly at the file's start is marked. A last line advises to replace the file's guess, if there are guesses.
+    """
     if not findings.assemblies:
         return
     count = len(findings.assemblies)
@@ -311,21 +330,25 @@ def format_guess(assembly: Assembly) -> str:
 
 def build_scene_documents(findings: Findings) -> dict[str, Any]:
     """Return the results of all scenes for `--json`, by scene; angles in rad, lengths in m."""
-    return {name: _build_scene_document(scene) for name, scene in findings.scenes.items()} | {
+    return {name: _build_assembled_scene_document(scene) for name, scene in findings.scenes.items()} | {
         name: {"assembles": False, "message": str(error)} for name, error in findings.errors.items()
     }
 
 
-def _build_scene_document(scene: AssembledScene) -> dict[str, Any]:
-    """Return the results of one assembled scene as a dictionary for `--json`."""
+def _build_assembled_scene_document(scene: AssembledScene) -> dict[str, Any]:
+    """Return the results of one assembled scene as a dictionary for `--json`.
+
+    It has the degrees of freedom with and without play, Grübler's count, the number of redundant equations, independent
+    coordinates, unconnected bodies, and guesses that are not followed.
+    """
     return {
         "assembles": True,
         "degrees of freedom": scene.scene_mobility.freedoms,
         "with all joints closed": scene.closed_mobility.freedoms,
         "by counting": scene.closed_mobility.gruebler,
         "redundant rows": scene.closed_mobility.redundant,
-        "along": list(scene.closed_mobility.along),
-        "loose": list(scene.closed_mobility.loose),
+        "along": list(scene.closed_mobility.independent_coordinates),
+        "loose": list(scene.closed_mobility.unconnected_bodies),
         "guesses not followed": dict(scene.guess_deviations),
     }
 

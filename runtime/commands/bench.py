@@ -17,8 +17,8 @@ METHODS_HINT = f"without it all methods are measured; or {','.join(OFFERED)}"
 def benchmark_file(request: MeasurementRequest, methods: tuple[str, ...] = ()) -> int:
     """Run `gudgeon bench`: measure all scenes of a request, print and write the table, and return the exit code.
 
-    methods: texts of names separated by commas, or () for all. Scenes without degrees of freedom have no steps and no
-    choice of methods. Raises BadValueError for unknown methods before anything is run.
+    methods: texts of names separated by commas, or () for all. For scenes without degrees of freedom, steps and methods
+    do not apply. Raises BadValueError for unknown methods before anything is run.
     """
     step, t_end = request.parse_time("--mark-step", request.mark), request.parse_time("--t-end", request.t_end)
     simulations = load_scenes(request)
@@ -33,9 +33,10 @@ def benchmark_file(request: MeasurementRequest, methods: tuple[str, ...] = ()) -
     table = request.find_table_path(simulations[0].source.mechanism, "bench")
 
     def measure_one_scene(simulation: Simulation, progress: Report | None) -> SceneBench:
-        """Measure one scene; its steps include the step of `--mark-step`.
+        """Measure run time against error of one scene and return its SceneBench.
 
-        Returns a SceneBench. `progress` is called with fraction and text. None: no progress is reported.
+        With `--mark-step`, that step is added to the default steps, except without degrees of freedom. `progress` is
+        called with fraction and text. None: no progress is reported.
         """
         parameters, steps = request.select_parameters(simulation), None
         if step is not None and simulation.source.degrees_of_freedom != 0:

@@ -93,7 +93,10 @@ def _find_exit_code(mechanism: Mechanism, findings: assembly_report.Findings) ->
 
 
 def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
-    """Return the errors of a file as dictionaries with kind, location, message and hint, for `--json`."""
+    """Return the errors of a file as dictionaries for `--json`: kind, file, line, column, message and hint of each.
+
+    An InputErrors gives one for each of its errors. Without a location, file, line and column are None.
+    """
     errors = error.errors if isinstance(error, InputErrors) else (error,)
     return [
         {
@@ -156,7 +159,10 @@ def _can_run_in_reference_solvers(source: KernelSource) -> bool:
 
 
 def _describe_reduction(source: KernelSource) -> dict[str, Any]:
-    """Return for `--json` the formulation, tree, closures, solved drives, operation counts and available methods."""
+    """Return for `--json` the formulation, tree, closures, solved drives, operation counts and available methods.
+
+    Reference solvers are among the methods if they can run the scene. The first method of `auto` is named too.
+    """
     operations = {"full": source.operations["dynamics"]}
     if "reduced_dynamics" in source.operations:
         operations["reduced"] = source.operations["reduced_dynamics"]
@@ -205,7 +211,11 @@ def _build_check_document(
     seconds: Mapping[str, Mapping[str, float]],
     findings: assembly_report.Findings,
 ) -> dict[str, Any]:
-    """Return the whole result of the check as a dictionary for `--json`."""
+    """Return the whole result of the check as a dictionary for `--json`.
+
+    It has the names of the mechanism's parts, the verdict, the assembled scenes, the assemblies, and for each derived
+    scene its equations with the wall time of each stage from `seconds`; {} for a scene that was not derived.
+    """
     return {
         "valid": True,
         "name": mechanism.name,
@@ -318,7 +328,11 @@ def yield_reduction_logs(
 
 
 def _make_log_table(steps: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
-    """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text."""
+    """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text.
+
+    `steps`: (coordinates, equations, text) of each reduction step; without steps the table has no header. `lines`:
+    (label, text) below the steps, with the label in the first column. The last row is empty.
+    """
     from rich.table import Table
     from rich.text import Text
 

@@ -12,8 +12,10 @@ from gudgeon.contract.methods import OFFERED
 
 
 def complete_files(incomplete: str) -> list[str]:
-    """Return completions of a file name: shipped mechanisms, YAML files and folders that begin with the text,
-    sorted.
+    """Return completions of a file name, sorted: shipped mechanisms, YAML files and folders that begin with the text.
+
+    Shipped mechanisms are offered for a name without folder. Hidden entries are left out; folders end in "/". A folder
+    that cannot be read gives none.
     """
     from gudgeon.loading.shipped import list_shipped_mechanisms
 

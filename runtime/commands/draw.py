@@ -212,9 +212,10 @@ def _make_configuration(linkage: NumPyLinkage, q: Array, v: Array | None) -> Con
 def _make_sketches(
     mechanism: Mechanism, problem: AssemblyProblem, configurations: Sequence[Configuration]
 ) -> list[Sketch]:
-    """Return a sketch of each configuration of a closed linkage, all with one scale.
+    """Return a sketch of each configuration of a closed linkage, all with one scale and one bounding box.
 
-    Motions of loose bodies are marked, and degrees of freedom if the file does not declare `freedoms`.
+    Free motions are marked if there are bodies that are not connected to the ground, or if there are degrees of freedom
+    and the file does not declare `freedoms`. The mobility is that of the first configuration.
     """
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.drawing.failures import draw_free_motions
@@ -223,16 +224,24 @@ def _make_sketches(
 
     with np.errstate(all="ignore"):
         mobility = find_mobility(problem.linkage, problem.p, configurations[0].q)
-    plans, sketches = [make_layout([configuration], configurations[0]) for configuration in configurations], []
-    unit = min(plan.unit for plan in plans)
-    plans = [replace(plan, unit=unit) for plan in plans]
-    box = compute_common_box(configurations, plans)
-    marked = mobility.loose or (mobility.freedoms and mechanism.freedoms is None)
-    for configuration, plan in zip(configurations, plans, strict=True):
-        shapes, labels = draw_free_motions(problem, configuration, unit, mobility.loose) if marked else ([], [])
-        loose = frozenset(mobility.loose)
+    layouts, sketches = [make_layout([configuration], configurations[0]) for configuration in configurations], []
+    unit = min(layout.unit for layout in layouts)
+    layouts = [replace(layout, unit=unit) for layout in layouts]
+    box = compute_common_box(configurations, layouts)
+    marked = mobility.unconnected_bodies or (mobility.freedoms and mechanism.freedoms is None)
+    for configuration, layout in zip(configurations, layouts, strict=True):
+        shapes, labels = (
+            draw_free_motions(problem, configuration, unit, mobility.unconnected_bodies) if marked else ([], [])
+        )
         sketches.append(
-            make_sketch(configuration, plan, shapes_on_top=shapes, labels=labels, unconnected_bodies=loose, box=box)
+            make_sketch(
+                configuration,
+                layout,
+                shapes_on_top=shapes,
+                labels=labels,
+                unconnected_bodies=frozenset(mobility.unconnected_bodies),
+                box=box,
+            )
         )
     return sketches
 
@@ -258,14 +267,17 @@ def _draw_unclosed_linkage(
 
 
 def _draw_assemblies(mechanism: Mechanism, problem: AssemblyProblem, q: Array) -> tuple[list[Sketch], list[str]]:
-    """Return a sketch of each assembly, and as its title the guess that selects it; the start is the first."""
+    """Return a sketch of each assembly, and as its title the guess that selects it; the start q (n,) is the first.
+
+    Titles are numbered, and that of the start is marked "(as in the file)".
+    """
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.commands.assembly_report import format_guess
 
     linkage: Any = problem.linkage
     with np.errstate(all="ignore"):
-        coordinate_names = find_mobility(linkage, linkage.p, q).along
+        coordinate_names = find_mobility(linkage, linkage.p, q).independent_coordinates
     assemblies = find_assemblies(linkage, linkage.p, q, coordinate_names)
     configurations = [
         _make_configuration(linkage, assembly.q, _find_velocities(problem, assembly.q)[0]) for assembly in assemblies

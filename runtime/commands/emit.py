@@ -77,8 +77,8 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
     obstacle = explain_exchange_obstacle(simulation.source)
     kinds = f"Co-Simulation only ({obstacle})" if obstacle else "Co-Simulation and Model Exchange"
     report_written_file("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
-    if others := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
-        report_note(f"other scenes, by --scene: {', '.join(others)}")
+    if other_scenes := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
+        report_note(f"other scenes, by --scene: {', '.join(other_scenes)}")
     if not compiler.has_compiler():
         report_note("no C compiler was found: the FMU contains only sources, which the importer compiles")
     return 0

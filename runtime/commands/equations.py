@@ -74,7 +74,10 @@ def _check_notebook_run(mechanism: str, scene: str, notebook: Path) -> None:
 
 
 def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
-    """Write an HTML page of each scene into a folder, created if absent; pages have links to each other. Return 0."""
+    """Write an HTML page of each scene into a folder, created if absent; pages have links to each other. Return 0.
+
+    The files are NAME_SCENE.html; all are checked before the first scene is derived. Without `scenes`, all are written.
+    """
     from gudgeon.simulation.from_file import load
     from gudgeon.web.page import build_page
 
@@ -101,8 +104,9 @@ def _derive_model(mechanism: str, scene: str) -> Model:
 
 
 def _format_equations(mechanism: str, scene: str, target: Path) -> str:
-    """Return the equations of a scene as the text of a file in the format of the target's suffix; plain text for
-    others.
+    """Return the equations of a scene as the text of a file in the format of the target's suffix.
+
+    .html: a page with the running scene; .ipynb: a notebook; .tex: LaTeX; any other: plain text.
     """
     suffix = target.suffix.lower()
     if suffix == ".html":

@@ -106,10 +106,10 @@ def _build_tex_variables(exercise_data: ExerciseData) -> dict[str, str]:
     """Return the variables of the LaTeX template: the sketch as TikZ and its caption; {} without matplotlib."""
     if (sketch := _make_sketch(exercise_data)) is None:
         return {}
-    from gudgeon.drawing.tikz import write_tikz
+    from gudgeon.drawing.tikz import format_tikz
     from gudgeon.generator.targets.latex.render import escape_latex
 
-    return {"drawing": write_tikz(sketch, escape_latex), "caption": f"at {exercise_data.t:g} s"}
+    return {"drawing": format_tikz(sketch, escape_latex), "caption": f"at {exercise_data.t:g} s"}
 
 
 def _make_sketch(exercise_data: ExerciseData) -> Sketch | None:

@@ -65,7 +65,7 @@ class _SelectedLaw:
 
     law: Law
     name: str
-    numbers: Mapping[str, Any]
+    parameter_values: Mapping[str, Any]
     options: Mapping[str, str | bool]
     description: str
 
@@ -99,7 +99,7 @@ def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) ->
 
     from gudgeon.generator.kinds.laws.built import make_law_function
 
-    function = make_law_function(law, selected_law.numbers, selected_law.options, STEEL_JOINT)
+    function = make_law_function(law, selected_law.parameter_values, selected_law.options, STEEL_JOINT)
     with rc_context(plots.STYLE), np.errstate(all="ignore"):
         figure = Figure(figsize=(6.4, 4.2), dpi=120, layout="constrained")
         ax = figure.subplots()
@@ -125,7 +125,7 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
             raise make_unknown_name_error(f"key of {name}", key, tuple(fields), None)
     fixed_options: Mapping[str, str | bool] = law.also.get(name, {})
     options = {field.name: fixed_options.get(field.name, field.default_option) for field in law.options}
-    numbers: dict[str, Any] = {}
+    parameter_values: dict[str, Any] = {}
     description = []
     for field in fields.values():
         if field in law.options:
@@ -134,14 +134,14 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
                 description.append(f"{field.name}: {settings[field.name]}")
         elif field.varies:
             text = str(settings.get(field.name, ELASTIC_FORCE))
-            numbers[field.name] = _parse_law_expression(field, text)
+            parameter_values[field.name] = _parse_law_expression(field, text)
             description.append(f"{field.name} = {text}")
         elif (value := _find_parameter_value(field, settings)) is not None:
-            numbers[field.name] = value
+            parameter_values[field.name] = value
             if value != field.default or field.name in settings:
                 description.append(f"{field.name} = {format_quantity(value, _get_unit(field))}")
-    law.check_bounds(numbers)
-    return _SelectedLaw(law, name, numbers, options, ", ".join(description))
+    law.check_bounds(parameter_values)
+    return _SelectedLaw(law, name, parameter_values, options, ", ".join(description))
 
 
 def list_default_parameters(law: Law) -> dict[str, float | str]:
@@ -150,7 +150,7 @@ def list_default_parameters(law: Law) -> dict[str, float | str]:
     Keys of expressions have the text ELASTIC_FORCE.
     """
     return {
-        **_select_law_values(law, law.name, {}).numbers,
+        **_select_law_values(law, law.name, {}).parameter_values,
         **dict.fromkeys((expression.name for expression in law.expressions), ELASTIC_FORCE),
     }
 
@@ -201,10 +201,10 @@ def _find_parameter_value(field: Field, settings: Mapping[str, float | str]) -> 
         return parse_quantity(given, field.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
     if field.name not in NEVER_DEFAULT and (field.default is not None or not field.required):
         return None if field.default is None else float(field.default)
-    usual = DEFAULTS_BY_NAME.get(field.name, DEFAULTS_BY_DIMENSION.get(exponents) if exponents else None)
-    if usual is None:
+    fallback = DEFAULTS_BY_NAME.get(field.name, DEFAULTS_BY_DIMENSION.get(exponents) if exponents else None)
+    if fallback is None:
         raise MissingKeyError(f"{field.name} is missing: {field.meaning}\n  for example --set {field.name}=1")
-    return usual
+    return fallback
 
 
 def _parse_option(field: Field, given: float | str) -> str | bool:
@@ -238,7 +238,8 @@ def _draw_curves(
 def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
     """Draw the normal force over penetration δ for δ̇/δ̇⁻ = 1 (approach), 0 (rest) and −1 (separation).
 
-    One curve if approach and separation agree.
+    There is one curve if approach and separation agree. The approach speed is APPROACH_SPEED, the largest penetration
+    MAX_PENETRATION clearances of STEEL_JOINT.
     """
     from gudgeon.generator.kinds.laws.built import count_variables_outside_role
 
@@ -257,13 +258,13 @@ def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> N
 
 
 def _draw_friction_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
-    """Draw F_t/F_n over the slip velocity.
+    """Draw F_t/F_n of a friction law over the slip velocity v_t.
 
-    The largest velocity is three times the law's largest parameter in m/s, else APPROACH_SPEED. For laws with internal
-    states the curves are hysteresis loops of two slip amplitudes.
+    The largest velocity is three times the law's largest parameter in m/s, else APPROACH_SPEED. Laws with internal
+    states are drawn as hysteresis loops of two slip amplitudes, at F_n = 1 N.
     """
     speeds = [
-        selected_law.numbers[parameter.name]
+        selected_law.parameter_values[parameter.name]
         for parameter in selected_law.law.parameters
         if _get_unit(parameter) == "m/s"
     ]
@@ -336,7 +337,7 @@ def _draw_contact_fraction(ax: Axes, law: Function, selected_law: _SelectedLaw) 
 
     δ goes up to seven times the sum of the law's roughnesses.
     """
-    max_penetration = 7.0 * sum(x for name, x in selected_law.numbers.items() if name.startswith("roughness"))
+    max_penetration = 7.0 * sum(x for name, x in selected_law.parameter_values.items() if name.startswith("roughness"))
     delta = np.linspace(0.0, max_penetration, N_POINTS)
     fractions = iter([(law(delta)["share"], "dry contact; the rest is the film's")])
     _draw_curves(ax, delta, fractions, ("δ, penetration of the asperities", "m"), ("fraction b", ""))

@@ -83,7 +83,10 @@ def _yield_laws_by_role() -> Iterator[tuple[str, list[Law]]]:
 
 
 def _print_law_table() -> None:
-    """Print the table of all laws on stdout, grouped by role: name, title and other names of each law."""
+    """Print the table of all laws on stdout, grouped by role: name, title and other names of each law.
+
+    A last line names the command that prints one law.
+    """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text
@@ -109,8 +112,10 @@ def _build_laws_document() -> dict[str, Any]:
 
 
 def _build_law_document(law: Law, name: str) -> dict[str, Any]:
-    """Return equations, keys, states, validity and reference of one law for `--json`, under the name by which it is
-    called.
+    """Return equations, keys, states, validity and reference of one law for `--json`.
+
+    `name` is the law's name or an alternative name, by which it is called and which may fix options. Equations are
+    those of the default options; "choices" has those of other options that differ.
     """
     from gudgeon.generator.targets.latex.law import derive_forms, print_equation
 
@@ -135,8 +140,10 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
 
 
 def _build_key_document(field: Field) -> dict[str, Any]:
-    """Return a key of a law as a dictionary for `--json`: a quantity with SI unit and bounds, or an option with its
-    values.
+    """Return a key of a law as a dictionary for `--json`.
+
+    It has kind, meaning, whether it is required, and the default. A quantity also has symbol, SI unit, bounds and the
+    meaning of its absence; an option has its values and their sources.
     """
     document: dict[str, Any] = {
         "key": field.name,

@@ -71,6 +71,7 @@ def map_file(request: MeasurementRequest, map_options: MapOptions) -> int:
     def classify_scene(simulation: Simulation, progress: Report | None) -> VerdictMap:
         """Return the map of one scene: the verdicts over the axes of the command, with the scene's values of `--set`.
 
+        With a fixed-step method and less than two axes, none of them a step, the first axis has the default steps.
         `progress` is called with fraction and text; None: no progress is reported.
         """
         parameters = request.select_parameters(simulation)
@@ -110,17 +111,18 @@ def _map_box(
     def classify_box(simulation: Simulation, progress: Report | None) -> VerdictBox:
         """Return the verdicts of one scene at the corners and Sobol points of the box.
 
+        All runs have one setting; without `--at` it is the default step of a fixed-step method, or DEFAULT_RTOL.
         `progress` is called with fraction and text; None: no progress is reported.
         """
         parameters = request.select_parameters(simulation)
         axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PRESSURE_UNITS.get(a.unit, a.unit)) for a in axes.values()]
-        usual = find_default_step(simulation, parameters) if map_options.fixed else DEFAULT_RTOL
+        default_setting = find_default_step(simulation, parameters) if map_options.fixed else DEFAULT_RTOL
         return compute_verdict_box(
             simulation,
             ranges,
             map_options.box or 0,
-            setting=Setting(map_options.method, setting or usual),
+            setting=Setting(map_options.method, setting or default_setting),
             t_long=t_end,
             parameters=parameters,
             addresses=axes,
@@ -184,7 +186,11 @@ def _check_varied_once(option: str, texts: Sequence[str]) -> None:
 
 
 def _check_axis_names(map_options: MapOptions, simulations: Sequence[Simulation]) -> None:
-    """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
+    """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has.
+
+    Names are addresses of parameters, the settings step and rtol, "clearance", and groups of parameters. Texts without
+    "=" are not checked.
+    """
     addresses = [name for simulation in simulations for name in list_addresses(simulation.source)]
     known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *addresses]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):

@@ -29,11 +29,11 @@ def print_error(error: GudgeonError) -> None:
 
 
 def report_errors(command: Command) -> Command:
-    """Wrap a command so that gudgeon's errors are printed as one line and give its exit code; a decorator.
+    """Decorate a command: print gudgeon's errors, MemoryError and Ctrl-C as one line and exit with their codes.
 
-    Other exceptions keep their traceback. The wrapper has further keyword arguments. `laws`: files of user-defined
-    laws that are registered first. `files_as_json`: print the written files as JSON. `quiet`: print only warnings and
-    errors.
+    Other exceptions keep their traceback. The decorated command has further keyword arguments. `laws`: files of
+    user-defined laws that are registered first. `files_as_json`: print the written files as JSON. `quiet`: print only
+    warnings and errors.
     """
 
     @wraps(command)
@@ -63,7 +63,10 @@ def report_errors(command: Command) -> Command:
 
 @contextmanager
 def suppress_output(keep_stdout: bool) -> Iterator[None]:
-    """Suppress progress on stderr and, unless `keep_stdout`, results on stdout within the with block."""
+    """Suppress progress on stderr and, unless `keep_stdout`, results on stdout within the with block.
+
+    Warnings and errors on stderr are still printed.
+    """
     from gudgeon.commands import progress
 
     is_terminal, progress.is_terminal = progress.is_terminal, lambda: False

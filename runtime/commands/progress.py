@@ -79,7 +79,10 @@ def _show_status_text(text: str) -> Iterator[None]:
 
 
 def _start_progress_display() -> Any:
-    """Start rich's display of progress bars on stderr, and return it."""
+    """Start a display of progress bars on stderr (rich.progress.Progress) and return it.
+
+    The caller adds tasks with a field `text` and stops the display; stopping removes the bars.
+    """
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
     from gudgeon.language.text_output import make_plain_console

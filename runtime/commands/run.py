@@ -141,9 +141,7 @@ def run_scenes(request: RunRequest) -> int:
 
 
 def _format_interruption(names: Iterable[str], outcome: RunOutcome) -> str:
-    """Return the message after Ctrl-C: which results are shown and saved, where runs ended, and which scenes are
-    missing.
-    """
+    """Return the message after Ctrl-C: which results are shown and saved, where runs ended, missing scenes."""
     from gudgeon.simulation.predictability_horizon import UNFINISHED
 
     if not outcome.runs:
@@ -279,7 +277,7 @@ def _write_results(request: RunRequest, simulations: Mapping[str, Simulation], o
 def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
     """Store the ideal run with which each scene with play is compared in `outcome.references`.
 
-    A reference that Ctrl-C ended is not stored. An error is stored as a failure of the ideal scene.
+    After Ctrl-C, `outcome.interrupted` is set and the search ends. Errors are failures of the ideal scene.
     """
     for scene, run in outcome.runs.items():
         if run.source.clearances:  # other scenes are ideal ones with other parameters
@@ -296,8 +294,8 @@ def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
 
 
 def _find_ideal_run(ideal: Simulation, run: Result, outcome: RunOutcome) -> Result:
-    """Return the ideal run with the sample times and parameter values of `run`; one that `outcome` has is reused."""
-    common_addresses = {slot.address for slot in ideal.source.slots}
+    """Return the ideal run with times and parameter values of `run`, without stop and peaks; an equal one is reused."""
+    common_addresses = {parameter.address for parameter in ideal.source.slots}
     values = {address: number for address, number in run.parameters.items() if address in common_addresses}
     for other in (outcome.runs.get(IDEAL_SCENE), *outcome.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
@@ -452,7 +450,7 @@ def write_reports(
     write_errors: list[GudgeonError],
     quiet: bool,
 ) -> None:
-    """Write a report of each run; its path goes into `files`, its error into `write_errors`.
+    """Examine each run, save it by `save` and write its report: path to `files`, error to `write_errors`.
 
     `runs` then contains the examined runs. A run that Ctrl-C ended is reported without examination.
     """
@@ -487,14 +485,14 @@ def check_origin(path: Path, origin: str) -> None:
 
     Nothing is raised if the file is absent, unreadable or has no hashes. origin: text of `format_origin`.
     """
-    ours = _ORIGIN_PATTERN.match(origin.encode())
+    expected_match = _ORIGIN_PATTERN.match(origin.encode())
     try:
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-            noted = _ORIGIN_PATTERN.search(data)
-            origins = set(noted.groups()) if noted else set()
+            stored_match = _ORIGIN_PATTERN.search(data)
+            origins = set(stored_match.groups()) if stored_match else set()
     except (OSError, ValueError):  # no file; errors of writing are reported later
         return
-    if ours and origins and not origins & set(ours.groups()):
+    if expected_match and origins and not origins & set(expected_match.groups()):
         message = f"--out: {shorten_path(path)} is the result of another mechanism file with the same name"
         hint = "name another folder with --out, or remove the result; or change `name:` in one of the files"
         raise InputError(message, hint=hint)

@@ -293,7 +293,10 @@ class KernelSource:
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
-        """Return the source that `to_json` wrote; values that were left out are restored."""
+        """Return the kernel source that `to_json` wrote; values that were left out are restored.
+
+        Lists become tuples; bodies, joints, series and other entries become their dataclasses.
+        """
         fields = restore_derived_values(json.loads(text), _find_json_defaults())
         classes = {
             "bodies": BodyInfo,
@@ -324,9 +327,10 @@ class KernelSource:
 
 
 def _find_json_defaults() -> dict[str, Any]:
-    """Return the values of KernelSource that the JSON text leaves out, by name of the field.
+    """Return the values of KernelSource fields that the JSON text leaves out, by name of the field.
 
-    They are the defaults of fields, and empty lists and mappings for fields without defaults.
+    They are the defaults of fields in JSON form (tuples as lists), empty lists and mappings for some fields without
+    defaults, MAIN for `main`, and an empty mapping for the reduction log (`story`).
     """
     defaults = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
     json_defaults = {name: list(value) if isinstance(value, tuple) else value for name, value in defaults.items()}

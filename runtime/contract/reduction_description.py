@@ -26,7 +26,8 @@ def describe_reduction_steps(source: KernelSource) -> Iterator[tuple[int, int, s
 def describe_reduced_system(source: KernelSource) -> Iterator[tuple[str, str]]:
     """Yield titles and texts on the tree, the unknowns, the linear systems and the operations of a scene.
 
-    The tree is left out if there is none, the closures for the full formulation.
+    The tree is left out if there is none. The closures (constraint equations that remain) are left out for the full
+    formulation.
     """
     log, is_reduced = source.story, source.formulation == "reduced"
     if log.tree:
@@ -219,7 +220,8 @@ def _format_linear_systems(log: ReductionLog, is_reduced: bool) -> str:
 def _format_operations(source: KernelSource) -> str:
     """Return a text on the operations of a right-hand side, or of a sample of a kinematic linkage.
 
-    Numbers before and after the reduction are compared, where there are both.
+    Numbers before and after the reduction are compared with their ratio, where there are both. Those of a reduced
+    right-hand side include the rates of kinematically determined loops (`chain`). Operations of force laws follow.
     """
     counts = source.operations
     n_full = counts["dynamics"]
@@ -251,7 +253,10 @@ def _format_ratio(before: int, after: int) -> str:
 
 
 def _format_law_operations(source: KernelSource) -> str:
-    """Return a text on the operations of force laws; joints with equal numbers are listed together. "" without play."""
+    """Return a text on the operations of force laws, "" without play; joints with equal numbers are listed together.
+
+    The numbers are of the film and of the dry contact of a joint, from source.operations.
+    """
     joints_by_text: dict[str, list[str]] = {}
     for joint in source.clearances:
         operations = {

@@ -97,7 +97,10 @@ class ReductionLog:
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> ReductionLog:
-        """Build the record from the plain data (dictionaries and lists) of its JSON form."""
+        """Build the log from the dictionaries and lists of its JSON form.
+
+        Steps, bodies of the tree, groups and linear systems become their dataclasses, other lists become tuples.
+        """
         classes_of_lists = {"steps": Step, "tree": TreeBody, "groups": Group}
         classes_of_systems = {"before": Solve, "after": Solve}
         fields: dict[str, Any] = {}

@@ -53,7 +53,11 @@ def remove_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
 
 
 def restore_derived_values(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Return the data with the values that `remove_derived_values` removed; `data` is changed in place."""
+    """Return the data with the values that `remove_derived_values` removed; `data` is changed in place.
+
+    Values that are present are kept. Defaults are added first, then indices of constraint equations are replaced by the
+    equations, then values that follow from others are computed.
+    """
     for name, default in defaults.items():
         if name not in _DERIVED_VALUES:
             data.setdefault(name, default)

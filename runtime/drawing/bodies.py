@@ -42,6 +42,7 @@ def draw_bodies(
 def _iterate_outlines(configuration: Configuration, layout: Layout, body: str) -> Iterator[tuple[str, Array]]:
     """Yield role and closed outline (N, 2) of a body: its link or plate, its guides for other bodies, its blocks.
 
+    The role is "body"; a guide with a visible gap gives "guide" for its walls and "channel" for the space between them.
     A body with a guide or block whose points coincide has no link or plate.
     """
     unit, positions = layout.unit, remove_repeated_positions(find_outline_points(configuration, body).values())

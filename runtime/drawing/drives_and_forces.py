@@ -183,7 +183,7 @@ def _find_arrow_position(configuration: Configuration, layout: Layout, part: Par
     """Return the middle (2,), m, of the arrow of a driven coordinate x or y, and the unit vector of its offset.
 
     The arrow lies above the point (for y: left of it). For a body that slides on the ground along the coordinate, it
-    lies next to the block, away from the ground.
+    lies next to the block, on the side away from the ground.
     """
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
     position, normal = configuration.get_position(part.ends[0]), rotate_quarter_turn(axis)
@@ -199,7 +199,11 @@ def _find_arrow_position(configuration: Configuration, layout: Layout, part: Par
 
 
 def _draw_cylinder(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
-    """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
+    """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end.
+
+    It joins both points of the drive; lengths along its axis are fractions of their distance. Ends on the ground get
+    the symbol of the ground.
+    """
     name, u = f"drive {part.name}", layout.unit
     begin, end = (configuration.get_position(point) for point in part.ends)
     axis, length = unit_vector(end - begin), float(np.hypot(*(end - begin)))
@@ -357,11 +361,19 @@ def _compute_arrow_vector(configuration: Configuration, layout: Layout, part: Pa
     load = np.array(configuration.loads.get(part.name, (0.0, 0.0)))
     if not (np.isfinite(load).all() and load.any()):
         return np.zeros(2)
-    return load * layout.newton if layout.newton > 0.0 else ARROW_LENGTH * layout.unit * unit_vector(load)
+    return (
+        load * layout.metres_per_newton
+        if layout.metres_per_newton > 0.0
+        else ARROW_LENGTH * layout.unit * unit_vector(load)
+    )
 
 
 def _draw_dry_friction(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
-    """Yield a zigzag line under the second body's point, and for a moving surface the arrow of its speed."""
+    """Yield a zigzag line under the second body's point, and for a moving surface the arrow of its speed.
+
+    The line is along the friction direction, half a block's height below the point. There is no arrow if the parameter
+    `speed` is 0.
+    """
     name, u = f"force {part.name}", layout.unit
     line_direction = configuration.compute_direction(part, "direction", get_body_name(part.ends[0]))
     down = (

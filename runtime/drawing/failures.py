@@ -77,7 +77,8 @@ def draw_free_motions(
 ) -> tuple[list[Shape], list[Label]]:
     """Return arrows along the free motions of the bodies of a closed linkage, and labels.
 
-    Bodies in `unconnected_bodies` have the label "NAME is unconnected". `unit` is half a bar's width in m.
+    Motions below MIN_MOTION_FRACTION of the largest one are not drawn. Bodies in `unconnected_bodies` have the label
+    "NAME is unconnected". `unit` is half a bar's width in m.
     """
     motions = compute_free_motions(problem.linkage, problem.p, configuration.q, problem.t)
     max_motion = float(np.abs(motions * np.where(problem.is_angle, problem.size, 1.0)[:, None]).max(initial=0.0))
@@ -110,8 +111,9 @@ def _draw_motion_arrows(
     """Yield double arrows along each direction in which the centre of a body can move, and a round arrow for a
     rotation.
 
-    `motions` (3, k) are the body's parts of k free motions. A motion below `min_motion` (m) counts as none; `size` (m)
-    converts angles. With one free direction, no round arrow is drawn.
+    `motions` (3, k) are the body's parts of k free motions. If the centre moves in both directions, the double arrows
+    are along x and y. With one direction no round arrow is drawn. A motion below `min_motion` (m) counts as none;
+    `size` (m) converts angles to lengths. `unit`: half a bar's width, m.
     """
     part, head_length = f"free {body}", HEAD_LENGTH * unit
     directions, singular_values, _ = np.linalg.svd(motions[:2], full_matrices=False)

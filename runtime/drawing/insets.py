@@ -64,7 +64,7 @@ def draw_insets(
 
     Insets are in columns to the right of the box, or in rows below it if more fit there. Gap and eccentricity are to
     scale; radii and a slider's lengths are not. `contact_names`: joints and corners in contact, drawn red;
-    `earlier_contact_names`: those that were in contact since the previous picture, with a red bearing or wall.
+    `earlier_contact_names`: others that were in contact since the previous picture, with a red bearing or wall.
     """
     radius = INSET_RADIUS * unit
     joint_names = dict.fromkeys(joint.joint for joint in configuration.source.clearances)
@@ -100,8 +100,8 @@ def _draw_journal(
     """Return shapes of a journal in its bearing, the eccentricity ratio, and the distance of the label below the centre
     (m).
 
-    `radius` is that of the inset in m. The bearing is red if `joint` is in `earlier_contact_names`, the journal if it
-    is in `contact_names`.
+    `centre` and `radius` (m) are those of the inset. The bearing is red if `joint` is in `earlier_contact_names`, the
+    journal if it is in `contact_names`. A line joins the centres of bearing and journal.
     """
     clearance, factor = (
         configuration.get_clearance(joint),

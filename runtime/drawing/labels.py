@@ -61,7 +61,10 @@ class NameLabels(Artist):
         self.texts = [self._make_text(label, size) for label in sketch.labels]
 
     def _make_text(self, label: Label, size: float) -> Text:
-        """Return the text artist of a label, centred and without position, in the style of its role."""
+        """Return the text artist of a label, centred and without position, in the style of its role.
+
+        `size` is the font size in points. The artist has an identifier of the label's part for SVG.
+        """
         colour_name, weight = NAMES[label.role]
         colour = (
             resolve_colour(colour_name, self.body_tints.get(label.part, 0)) if colour_name in ("edge",) else colour_name
@@ -229,11 +232,11 @@ def make_identifier(kind: str, part: str) -> str:
 
 def collect_outline_segments(shapes: Sequence[Shape], to_pixels: Any) -> Array:
     """Return the outlines of all shapes as segments in pixels, (S, 4); circles as 16 segments."""
-    polylines = [to_pixels(points) for points in _iterate_outlines(shapes)]
+    polylines = [to_pixels(points) for points in _iterate_polylines(shapes)]
     return np.vstack([np.hstack([points[:-1], points[1:]]) for points in polylines]) if polylines else np.zeros((0, 4))
 
 
-def _iterate_outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
+def _iterate_polylines(shapes: Sequence[Shape]) -> Iterator[Array]:
     """Yield the outline of each shape as points (N, 2) in m: a closed line or a disc ends at its first point."""
     for shape in shapes:
         if isinstance(shape, Disc):
@@ -331,7 +334,10 @@ def _have_intersection(first_segment: Array, second_segment: Array) -> bool:
 
 
 def count_crossings(box: Array, segments: Array) -> float:
-    """Return the number of segments (S, 4) that meet a box (4,), by the method of Liang and Barsky."""
+    """Return the number of segments (S, 4) that meet a box (4,), by the method of Liang and Barsky.
+
+    Rows are x and y of both ends; the box is its lower and upper corner. Segments inside the box count.
+    """
     start, span = segments[:, :2], segments[:, 2:] - segments[:, :2]
     with np.errstate(all="ignore"):
         t_low, t_high = (box[:2] - start) / span, (box[2:] - start) / span

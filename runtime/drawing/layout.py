@@ -33,13 +33,13 @@ class Layout:
 
     `unit`: half a bar's width (m). `ground_directions`: for a joint, cylinder or spring on the ground the direction of
     the ground from it, (2,). `travel`: for a sliding joint the smallest and largest position along its axis (m), over
-    all configurations. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
+    all configurations. `metres_per_newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
     """
 
     unit: float
     ground_directions: Mapping[str, Array]
     travel: Mapping[str, tuple[float, float]]
-    newton: float = 0.0
+    metres_per_newton: float = 0.0
 
 
 def make_layout(configurations: Sequence[Configuration], start_configuration: Configuration | None = None) -> Layout:
@@ -109,6 +109,7 @@ def _collect_drawn_points(configuration: Configuration) -> list[Array]:
 def _compute_symbol_unit(configuration: Configuration, positions: Array) -> float:
     """Return half a bar's width in m, from the size of the drawing and its shortest link.
 
+    It is MAX_LINK_FRACTION of the shortest link, at least MIN_UNIT_FRACTION and at most UNIT_FRACTION of the size.
     `positions` (N, 2) are all drawn points. If they coincide, the size is the file's largest length, or 1 m without
     lengths.
     """
@@ -162,9 +163,11 @@ def _find_rail_side(start_configuration: Configuration, part: PartInfo) -> Array
 
 
 def _find_pin_ground_direction(configurations: Sequence[Configuration], part: PartInfo) -> Array:
-    """Return the direction of the ground at a pin, a unit vector: down if no point of its bodies lies within 50° of it.
+    """Return the unit vector from a pin to the ground: down if no point of its bodies lies within 50° of that
+    direction.
 
     Otherwise it is the axis direction with the fewest points of the pin's bodies within 50°, over all configurations.
+    The bodies are those of all joints at the pin that hold their points.
     """
     end = next(end for end in part.ends if get_body_name(end) == GROUND)
     first, angles = configurations[0], []

@@ -148,7 +148,8 @@ def _iterate_name_offsets(
 ) -> Iterator[Mapping[str, tuple[float, float]]]:
     """Yield the offset of each name from its part for each picture, in pixels, by part.
 
-    A name without a free position keeps its previous offset. Names without an offset in `label_offsets` are left out.
+    `label_offsets` are those before the first picture; names without one are left out. In each picture a name keeps its
+    previous offset if that is free, or if no position is. `half_sizes`: of the names, pixels; `scale`: pixels per m.
     """
     lower_corner, picture_box = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
     for sketch in sketches:

@@ -110,8 +110,8 @@ class Pen(JointGeometry):
     def add_rail(self, distance: float, side_sign: float = 1.0) -> None:
         """Add a rail with hatching along the whole travel of a slider, parallel to its line.
 
-        `distance` is that of the rail from the line in m. With `side_sign` −1 the rail is on the side away from the
-        ground.
+        `distance` is that of the rail from the line in m. The rail is on the side of the ground; with `side_sign` −1 it
+        is on the other side. In a guide with play it has the guide's direction.
         """
         line_point, axis, name = self.on_line, self.along, self.part.name
         if name in self.configuration.guides:

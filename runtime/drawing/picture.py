@@ -55,7 +55,10 @@ def draw_sketch(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
 
 
 def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
-    """Return the matplotlib patch of a shape in the style `role`; in grey if `is_grey`."""
+    """Return the matplotlib patch of a shape in the style `role`: a circle for a disc, a polygon for a line.
+
+    With `is_grey`, edge and face are grey. An open line is not filled.
+    """
     edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
     style: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
@@ -138,7 +141,7 @@ def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str
 def report_missing_glyphs() -> Iterator[None]:
     """Return a context in which matplotlib's warnings about missing glyphs are combined into one.
 
-    That warning and all others are issued at the end of the context.
+    That warning and all others are issued at the end of the context, not if an error ends it.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -156,7 +159,8 @@ def report_missing_glyphs() -> Iterator[None]:
 def encode_figure(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
     """Return a figure as the bytes of an SVG, PNG or PDF file, always the same for the same figure.
 
-    `suffix` is ".svg", ".png" or ".pdf". Date and version are left out. Raises KeyError for any other suffix.
+    `suffix` is ".svg", ".png" or ".pdf"; any other raises KeyError. Date and version are left out. Glyphs that the font
+    lacks are reported in one warning.
     """
     out = io.BytesIO()
     file_format = suffix.removeprefix(".")

@@ -45,9 +45,10 @@ class MovingFrame:
     length_index: int = -1
 
     def compute_frame(self, configuration: Configuration) -> tuple[Array, Array, float]:
-        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the moving frame at a configuration.
+        """Return origin r_P (2,) in m, rotation matrix A(φ) (2, 2) and length s of the moving frame at a configuration.
 
-        The matrix is the identity if the direction that defines φ is a zero vector.
+        s is the distance of P and Q or a parameter (m), 0 without one. A is the identity if the direction of φ is a
+        zero vector.
         """
         origin, q, p = (
             configuration.get_position(self.point) if self.point else np.zeros(2),
@@ -87,7 +88,10 @@ class MovingShape:
     max_error: float = 0.0  # m, largest error of a point at the tried configurations
 
     def move_to(self, configuration: Configuration) -> Shape:
-        """Return the shape moved to a configuration: points of a line, or centre and radius of a disc."""
+        """Return the shape moved to a configuration: points of a line, or centre and radius of a disc.
+
+        x = r_P + A (c₀ + s c₁) with the moving frame of each point; the radius is r₀ + r₁ p[k].
+        """
         positions = np.empty((len(self.moving_frames), 2))
         for moving_frame in dict.fromkeys(self.moving_frames):
             origin, rotation, s = moving_frame.compute_frame(configuration)

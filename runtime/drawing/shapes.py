@@ -116,7 +116,7 @@ def compute_convex_hull(points: Sequence[Array]) -> Array:
 def compute_rounded_outline(points: Sequence[Array], radius: float) -> Array:
     """Return the outline (N, 2) of the convex hull of discs around points, all with one radius in m.
 
-    It is a circle for one point, a link for two, and a plate with round corners for more.
+    It is a circle for one point, a bar with round ends for two, and a plate with round corners for more.
     """
     corners = compute_convex_hull(points)
     if len(corners) == 1:

@@ -88,9 +88,10 @@ def compute_box(shapes: Sequence[Shape], layout: Layout) -> tuple[Array, Array]:
 
 
 def compute_common_box(configurations: Sequence[Configuration], layouts: Sequence[Layout]) -> tuple[Array, Array]:
-    """Return the lower and upper corner of the box that contains the drawings of several configurations, in m.
+    """Return the lower and upper corner of the bounding box of the drawings of several configurations, in m.
 
-    `layouts` is one layout for all configurations, or one for each.
+    `layouts` is one layout for all configurations, or one for each. The box has a margin for names; insets do not
+    count.
     """
     configurations_and_layouts = zip(
         configurations, layouts if len(layouts) > 1 else [layouts[0]] * len(configurations), strict=True

@@ -16,10 +16,11 @@ from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is
 MAX_WIDTH_IN, MAX_HEIGHT_IN = 6.3, 5.0  # inches on the page
 
 
-def write_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
-    """Return a sketch as the text of a tikzpicture with definitions of its colours.
+def format_tikz(sketch: Sketch, escape_latex: Callable[[str], str]) -> str:
+    """Return a sketch as the text of a tikzpicture with definitions of its colours; nothing is written.
 
     It is at most MAX_WIDTH_IN by MAX_HEIGHT_IN inches. `escape_latex` converts a name to LaTeX without commands.
+    matplotlib places the names.
     """
     width, height = compute_figure_size(sketch, MAX_WIDTH_IN)
     shrink_factor = min(1.0, MAX_WIDTH_IN / width, MAX_HEIGHT_IN / height)
@@ -58,9 +59,10 @@ class _Colours:
 
 
 def _format_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colours) -> str:
-    """Return the TikZ command of a line or circle in the style of its role.
+    """Return the TikZ command of a line or circle in the style of its role: width, edge, fill and dashes.
 
-    `to_points` converts metres to points; `colours` collects the colours that need a definition.
+    `to_points` converts metres to points; `colours` collects the colours that need a definition. An open line is not
+    filled.
     """
     role = ROLES[shape.role]
     edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)

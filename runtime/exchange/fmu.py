@@ -67,8 +67,8 @@ def write_fmu(simulation: Simulation, target: str | os.PathLike[str]) -> None:
 def build_fmu(simulation: Simulation) -> bytes:
     """Return the FMU of a scene as the bytes of a zip archive, reproducible for the same scene and compiler.
 
-    It contains descriptions, sources and a binary for this machine; without a compiler only sources. Raises as
-    `write_fmu`.
+    It contains descriptions, sources and a binary for this machine; without a compiler only sources. Raises
+    BadValueError for a scene with contours of bearings or user-defined C, BuildError if the compiler fails.
     """
     source = simulation.source
     if source.contours or source.cdef:
@@ -138,7 +138,8 @@ def _get_platform_name() -> str:
 def _compile_binary(sources: Mapping[str, str]) -> bytes:
     """Compile the sources, by path, and return the bytes of the shared library, for any processor of this architecture.
 
-    Raises BuildError with the compiler's message.
+    They are written to a temporary folder; only functions of FMI are exported. Raises BuildError with the compiler's
+    message.
     """
     command = compiler.find_compiler()
     with tempfile.TemporaryDirectory(prefix="gudgeon-fmu-") as folder:
@@ -176,9 +177,10 @@ def _format_header(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    fine = source.taylor_below or FINE
+    small_rtol = source.taylor_below or FINE
     methods = {
-        rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol)) for rtol in (fine, 0.5 * fine)
+        rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol))
+        for rtol in (small_rtol, 0.5 * small_rtol)
     }
     (first_method_name, stiff_method_name), (first_method_fine, stiff_method_fine) = methods.values()
     gains = [source.slot_index[name] for name in GAINS if name in source.slot_index]
@@ -195,7 +197,7 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_SIZES": len(sizes),
         "FMU_CLEARANCES": len(clearance_indices),
         "FMU_RTOL": repr(RTOL),
-        "FMU_FINE_RTOL": repr(fine),
+        "FMU_FINE_RTOL": repr(small_rtol),
         "FMU_HAS_FILM": int(any(joint.film for joint in source.clearances)),
         "FMU_FILM_VELOCITY_TOL": repr(MAX_FILM_SPEED_ERROR),
         "FMU_EVALUATES_AFTER": int(bool(compiled.has_mod_in_drives)),

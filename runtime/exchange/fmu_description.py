@@ -101,7 +101,11 @@ def iterate_parameters(source: KernelSource) -> Iterator[tuple[int, str, str, fl
 
 
 def explain_exchange_obstacle(source: KernelSource) -> str:
-    """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too."""
+    """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too.
+
+    Obstacles: no degrees of freedom, friction elements or rigid contacts with modes, drives whose rate jumps, internal
+    states of laws, kinematically determined loops, and a scene without Jacobian.
+    """
     if source.degrees_of_freedom == 0:
         return "no degrees of freedom: drives determine the motion"
     if source.frictions or source.rigid:
@@ -247,7 +251,11 @@ def list_indicators(source: KernelSource) -> list[tuple[str, str]]:
 
 
 def _iterate_structure_elements(source: KernelSource) -> Iterator[str]:
-    """Yield the XML elements of the model structure: outputs, derivatives, initial unknowns, event indicators."""
+    """Yield the XML elements of the model structure: outputs, derivatives, initial unknowns, event indicators.
+
+    Each has the value reference of a variable. Initial unknowns are the outputs, the states and the derivatives.
+    States, derivatives and indicators exist only for scenes with model exchange.
+    """
     n_outputs, n_states = len(list(iterate_outputs(source))), len(list_states(source))
     rate_references = range(VR_RATES, VR_RATES + n_states)
     references_by_kind = {
@@ -314,7 +322,11 @@ def build_description(source: KernelSource, name: str) -> str:
 
 
 def build_build_description(name: str) -> str:
-    """Return the text of sources/buildDescription.xml, which lists the C files; `name` is the model identifier."""
+    """Return the text of sources/buildDescription.xml, from which an importer compiles the C files.
+
+    It names the compilation units, the language C11, the option -ffp-contract=off and the library m. `name` is the
+    model identifier.
+    """
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',

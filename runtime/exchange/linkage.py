@@ -73,7 +73,7 @@ class Linkage:
     lines: list[Line] = field(default_factory=list)
     drives: list[Drive] = field(default_factory=list)
     gravity: Point | None = None
-    measured: bool = False  # whether the file specifies the unit
+    has_unit: bool = False  # whether the file specifies the unit
     notes: list[str] = field(default_factory=list)
     bodies_by_point: dict[str, list[Body]] = field(default_factory=dict)  # updated by `add_body` and `add_point`
 

@@ -128,14 +128,16 @@ class _Writer:
         """
         lines = []
         for point in self.linkage.iterate_points():
-            holders = [self.format_point_reference(body, point) for body in self.linkage.bodies_by_point.get(point, [])]
+            ends_at_point = [
+                self.format_point_reference(body, point) for body in self.linkage.bodies_by_point.get(point, [])
+            ]
             if point in self.linkage.ground:
-                holders.insert(0, f"ground.{self.get_point_name(point)}")
-            for index, other_end in enumerate(holders[1:]):
+                ends_at_point.insert(0, f"ground.{self.get_point_name(point)}")
+            for index, other_end in enumerate(ends_at_point[1:]):
                 name = self.names.get_unique_name(
                     ("joint", point, index), point if index == 0 else f"{point}_{index + 1}"
                 )
-                lines.append(f"  {name}: {{revolute: [{holders[0]}, {other_end}]}}")
+                lines.append(f"  {name}: {{revolute: [{ends_at_point[0]}, {other_end}]}}")
         for index, line in enumerate(self.linkage.lines):
             body, carrier = self.linkage.find_body(line.point), line.body
             if body is None:
@@ -165,16 +167,17 @@ class _Writer:
         (x_tail, y_tail), (x_head, y_head) = ends  # type: ignore[misc]
         return math.atan2(y_head - y_tail, x_head - x_tail)
 
-    def format_text(self) -> str:
+    def format_file(self) -> str:
         """Return the whole text of the mechanism file.
 
-        Comments at its head list what was assumed: masses, units and the notes of the linkage.
+        It has gravity, parameters (rates of the drives), bodies, ground points, joints, drives and guesses. Comments at
+        its head list what was assumed: masses, units and the notes of the linkage.
         """
         linkage = self.linkage
         notes = list(dict.fromkeys(linkage.notes))
         if any(body.mass is None for body in linkage.bodies):
             notes.append(f"masses are not in the file: those of bars of {LINE_MASS:g} kg/m are used")
-        if not linkage.measured:
+        if not linkage.has_unit:
             notes.append("the file has no units: lengths are assumed to be in metres")
         comments = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_format_comment, notes))
         name = _UniqueNames("mechanism").get_unique_name("", linkage.name)
@@ -207,6 +210,8 @@ class _Writer:
     def _format_motion(self) -> list[str]:
         """Return the lines of the drives, which begin at the initial angles, and the guesses of the other bodies'
         angles.
+
+        Bodies that are driven relative to another body, not to the ground, get a guess too if their angle is known.
         """
         lines, driven_ids = [], set[int]()
         for k, (rate, drive) in enumerate(zip(self.rates, self.linkage.drives, strict=True)):
@@ -252,7 +257,7 @@ def write_mechanism_text(linkage: Linkage) -> str:
     """Return the YAML text of a linkage. Raises InputError for a linkage without bodies."""
     if not linkage.bodies:
         raise InputError("the linkage has no moving body: expected a link with two joints")
-    return _Writer(linkage).format_text()
+    return _Writer(linkage).format_file()
 
 
 def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:

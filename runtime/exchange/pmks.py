@@ -61,17 +61,17 @@ def find_query(text: str) -> str | None:
 
 
 def read_pmks(query: str, name: str = "pmks") -> Linkage:
-    """Return the linkage of a link of PMKS+; `query`: the text after the question mark.
+    """Return the linkage of a link of PMKS+; `query`: the text after the question mark, `name`: of the mechanism.
 
-    Inches become metres, since gudgeon has no inches. Assumptions are among the notes. Raises InputError for text that
-    PMKS+ does not write.
+    Inches become metres, since gudgeon has no inches. Gravity is 9.81 m/s² downwards if the link has it; forces are
+    omitted. Assumptions are among the notes. Raises InputError for text that PMKS+ does not write.
     """
     sections = query.split(".")
     if len(sections) < 5:
         raise InputError("the link of PMKS+ has too few parts", hint="copy the complete link from Share")
     flags, _, integer_settings, unit_settings = sections[:4]
     scale, unit = LENGTH_UNITS[min(_decode_digits(unit_settings[:1] or "1"), len(LENGTH_UNITS) - 1)]
-    linkage, special_joints = Linkage(name, unit, measured=True), SpecialJoints()
+    linkage, special_joints = Linkage(name, unit, has_unit=True), SpecialJoints()
     joints, links, forces = _split_sections(sections[4:])
     for joint in joints:
         _read_joint(linkage, joint, special_joints, scale)
@@ -316,7 +316,7 @@ def add_input_drives(linkage: Linkage, special_joints: SpecialJoints, rate: floa
 
 
 def _add_piston(linkage: Linkage, link: _Link, special_joints: SpecialJoints) -> None:
-    """Add the line of a piston's pin through its slider.
+    """Add the line of a piston's pin through its slider; the mass of the piston is omitted, with a note.
 
     Raises InputError unless the piston has one slider, fixed to the ground and not driven, and one pin.
     """
@@ -357,7 +357,7 @@ def _read_old_link(query: str, name: str) -> Linkage:
     if len(settings) < 4 or settings[3].lower() not in UNITS:
         raise InputError(f"its settings are {parts.get('s', '')!r}, expected a speed, a direction, gravity and a unit")
     scale, unit = UNITS[settings[3].lower()]
-    linkage, old_joints = Linkage(name, unit, measured=True), SpecialJoints()
+    linkage, old_joints = Linkage(name, unit, has_unit=True), SpecialJoints()
     for line in filter(str.strip, parts.get("j", "").splitlines()):
         _read_old_joint(linkage, line.strip(), old_joints, scale)
     for line in filter(str.strip, parts.get("l", "").splitlines()):

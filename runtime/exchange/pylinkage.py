@@ -159,9 +159,10 @@ def _find_parent(ground_points: _GroundPoints, joint_name: str, joint: Entry, ke
 
 
 def _add_joint(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str | None]) -> None:
-    """Add what one joint of a Linkage defines: a ground point, bars, a drive, a fixed point or a line.
+    """Add what one joint of a Linkage defines, by its type: a ground point, bars, a drive, a fixed point or a line.
 
-    `parents` are the names of its parents, None where one is missing. Raises InputError.
+    Static: a ground point; Crank: a driven bar; Revolute: bars to both parents; Fixed: a point of a body; Linear and
+    Prismatic: a bar and a line. `parents` are the names of its parents, None where one is missing. Raises InputError.
     """
     joint_type, owner = joint.get("type"), f"joint {name}"
     position = _read_pair([joint.get("x"), joint.get("y")], "x, y", owner)
@@ -273,7 +274,8 @@ def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
 def _add_joint_at_position(linkage: Linkage, joint: Entry, fixed_joints: set[str]) -> None:
     """Add a joint at its position, also to the ground if it is fixed; for a prismatic joint also its line.
 
-    Raises InputError for a repeated name, and without a position or direction.
+    The line is fixed to the ground, through `line_point` or else the joint, along `axis` or else x. Raises InputError
+    for a repeated name, and without a position or direction.
     """
     name = _read_name(joint, "id", "joint")
     owner = f"joint {name}"
@@ -312,8 +314,8 @@ def _list_joints_of_link(link: Entry, name: str) -> list[str]:
 def _add_link(linkage: Linkage, name: str, link: Entry, joints: list[str]) -> None:
     """Add the body of a link at the positions of its joints, and the drive of a "driver" or "arc_driver".
 
-    The default rate is 1° per step, the default arc 0 to π. Raises InputError for an unknown joint, a motor joint that
-    is not the link's, or an arc without length.
+    `joints` is sorted in place: the motor joint becomes the first. The default rate is 1° per step, the default arc 0
+    to π. Raises InputError for an unknown joint, a motor joint that is not the link's, or an arc without length.
     """
     owner, link_type, motor = f"link {name}", link.get("type", "link"), str(link.get("motor_joint"))
     for joint in joints:

@@ -77,7 +77,8 @@ def _read_free_memory_of_machine(root: Path) -> float:
 def _read_free_memory_of_groups(root: Path) -> Iterator[float]:
     """Yield infinity, then the free bytes of each control group (cgroup v1, v2) of the process with a limit.
 
-    Parent groups are included. File pages that can be dropped count as free.
+    Free is the limit less the usage; file pages that can be dropped count as free. Parent groups are included. `root`:
+    folder that contains proc and sys; groups that cannot be read are left out.
     """
     yield math.inf
     lines: list[str] = []

@@ -78,8 +78,9 @@ class AtomicFiles:
     def open_file(self, name: str) -> Iterator[BinaryIO]:
         """Yield a binary file to write, which can be read and positioned, under a temporary name.
 
-        It is complete when the block ends without error; `move_files` then puts it in place. Raises OutputError for a
-        target that may not be replaced, and for each OSError.
+        It is complete when the block ends without error; `move_files` then puts it in place. It gets the permissions of
+        the file that it replaces, and is flushed to the disk if `sync` is set. Raises OutputError for a target that may
+        not be replaced, and for each OSError.
         """
         with convert_os_errors(self.folder / name):
             old_status = _check_replaceable_file(self.folder, name, self._fd)

@@ -57,8 +57,8 @@ MIN_RTOL_COMPENSATED = 1e-16  # the same for SMOOTH methods, which use compensat
 def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> float:
     """Return the checked relative tolerance of a step from the argument `rtol`; the default RTOL if it is None.
 
-    Raises BadValueError below MIN_RTOL (MIN_RTOL_COMPENSATED for SMOOTH methods), from 1 on, and for a method with a
-    fixed step.
+    rtol: a number or its text. Raises BadValueError below MIN_RTOL (MIN_RTOL_COMPENSATED for SMOOTH methods), from 1
+    on, and for a method with a fixed step, except kinematic.
     """
     if rtol is None:
         return RTOL
@@ -155,9 +155,10 @@ def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
 def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
     """Return the error tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2), for the time loop in C.
 
-    The first n_x are those of coordinates, the others those of velocities per unit of speed. Without integrated
-    coordinates there is one, rtol, for the works. With a film, tolerances of velocities are smaller. `p`
-    (..., n_slots + n_derived) holds the parameter values of one run, or of several.
+    The first n_x are those of coordinates, the others those of velocities per unit of speed. L: smallest positive
+    clearance, or S without one; S: size of the mechanism (m). Without integrated coordinates there is one tolerance,
+    rtol, for the works. With a film, tolerances of velocities are smaller. `p` (..., n_parameters + n_derived) holds
+    the parameter values of one run, or of several.
     """
     source = compiled.source
     with np.errstate(over="ignore", invalid="ignore"):  # runs with such values fail later, one by one
@@ -188,8 +189,8 @@ def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: flo
 def compute_tolerances_of_runs(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
     """Return error tolerances (n, 2 n_x), L and L/S (n, 2), and mechanism sizes S (n,) in m of n runs.
 
-    Arrays of a single run are cached for equal lengths and must not be changed. `p` (n, n_slots + n_derived): parameter
-    values.
+    See `compute_tolerances`. Arrays of a single run are cached for equal lengths and must not be changed. `p` (n,
+    n_parameters + n_derived): parameter values.
     """
     if len(p) > 1:
         return _compute_tolerances_and_sizes(compiled, p, rtol)
@@ -217,8 +218,8 @@ def compute_tolerances_of_values(
 ) -> tuple[Array, tuple[float, float], float]:
     """Return error tolerances (2 n_x,), L and L/S, and S (m) of one run, from its parameter values (n_p,).
 
-    The numbers equal those of `compute_tolerances_of_runs` bit for bit; plain floats save time. Without integrated
-    coordinates the only tolerance is rtol.
+    See `compute_tolerances`. The numbers equal those of `compute_tolerances_of_runs` bit for bit; plain floats save
+    time. Without integrated coordinates the only tolerance is rtol.
     """
     size = compute_size_of_values(find_size_indices(source), values)
     length = min((c for c in (values[joint.clearance] for joint in source.clearances) if c > 0.0), default=size)

@@ -93,10 +93,10 @@ class Runs(StoredRuns):
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
             self.n_lanes = min(self.n_lanes, max(lanes.MIN_SHARED_ROWS, MAX_UNSTORED_SAMPLES // N))
-        n_spare = (
+        n_unstored_rows = (
             min(self.n_lanes, MAX_UNSTORED_SAMPLES // N) if self.lane_provider else 0
         )  # rows of finished runs that are not stored yet
-        self.n_rows_per_thread = self.n_lanes + n_spare  # rows of samples per thread
+        self.n_rows_per_thread = self.n_lanes + n_unstored_rows  # rows of samples per thread
         if is_kinematic:
             self.n_rows_per_thread = count_kinematic_rows(N)
         super().__init__(
@@ -117,9 +117,10 @@ class Runs(StoredRuns):
         self.resumed = set[int]()  # runs that resume from a state
 
     def _make_batch_struct(self) -> Any:
-        """Return C's struct Batch with pointers to all arrays; not for time loops in Python.
+        """Return C's struct Batch with pointers to all arrays, tolerances and settings; not for time loops in Python.
 
-        Arrays of parameters, times and tolerances in `arrays` are replaced by contiguous ones.
+        Arrays of parameters, times and tolerances in `arrays` are replaced by contiguous ones. A single run with arrays
+        in one block (SingleRunArrays) gets the values copied into that block instead.
         """
         compiled, x, times = self.compiled, self.arrays, self.times
         scale, least, size = adaptive.compute_tolerances_of_runs(compiled, x["p"], self.rtol)
@@ -178,7 +179,8 @@ class Runs(StoredRuns):
     def integrate_all_runs(self, progress: Progress | None) -> None:
         """Integrate all runs in threads, assemble missing starts, and record failures; Ctrl-C ends them where they are.
 
-        Starts are assembled in C where possible, in Python for the rest. `progress` is called with the fraction of runs
+        Starts are assembled in C where possible, in Python for the rest. After Ctrl-C `interrupted` is set, and nothing
+        is raised. The contacts of all runs are then joined and sorted. `progress` is called with the fraction of runs
         done. `progress` None: nothing is reported.
         """
         with DelayedCtrlC() as ctrl_c:
@@ -203,7 +205,8 @@ class Runs(StoredRuns):
     def _record_failures(self) -> None:
         """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN.
 
-        Interrupted runs and runs that never began are recorded as SolverError. Shared rows of samples are not filled.
+        Runs that the user interrupted or that never began get a SolverError; recorded failures are kept. Runs without a
+        sample are NaN throughout. Shared rows of samples are not filled.
         """
         x = self.arrays
         self._reset_unassembled_runs()
@@ -249,7 +252,10 @@ class Runs(StoredRuns):
         return [i for i in runs if x["phase"][i] == NEW]
 
     def build_problem(self, i: int) -> Problem:
-        """Build the Problem of run i, whose start is known, as for a single run; it has no observer and no progress."""
+        """Build the Problem of run i, whose start is known, as for a single run; it has no observer and no progress.
+
+        The contact codes of its start are those of a resumed run, else None.
+        """
         x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
         return Problem(
             self.compiled,
@@ -262,7 +268,7 @@ class Runs(StoredRuns):
             state=x["codes"][i, :joints] if i in self.resumed else None,
             method=self.method,
             rtol=self.rtol,
-            p_free=None if self.method == "rk4" else x["p_motion"][i],
+            p_motion=None if self.method == "rk4" else x["p_motion"][i],
             stop=self.stop,
             start_is_sample=not self.times.n_skipped[i],
             audit=self.audit,

@@ -39,7 +39,7 @@ from gudgeon.model.file_expressions import (
     explain_undefined_rate,
     explain_undefined_value_after,
     explain_undefined_value_near,
-    find_steep_force,
+    find_force_with_unbounded_slope,
     find_unbounded_drive,
     read_expression_trees,
 )
@@ -124,7 +124,7 @@ def _build_status_error(
             return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", t)
         if drive := find_unbounded_drive(compiled, p, t):
             return _build_unbounded_drive_error(drive, t)
-        if method in NEED_SLOPES and (reason_text := find_steep_force(compiled.source, p, t, q, v)):
+        if method in NEED_SLOPES and (reason_text := find_force_with_unbounded_slope(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{reason_text}\n  {NO_SLOPE}", t)
         fast_drives = format_drive_states(compiled, p, t, MAX_DRIVE_RATE)
         advice = GROWN if fast_drives else advice
@@ -140,9 +140,9 @@ def _build_status_error(
         )
         return known_error or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drives}\n  {advice}", t)
     if status == LOST:
-        lost = {True: "an open corner is inside its wall", False: "an open journal is outside its bearing"}
-        which = sorted({lost[joint.is_corner] for joint in compiled.source.clearances}, reverse=True)
-        return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(which)}", t)
+        fault_at_corner = {True: "an open corner is inside its wall", False: "an open journal is outside its bearing"}
+        faults = sorted({fault_at_corner[joint.is_corner] for joint in compiled.source.clearances}, reverse=True)
+        return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(faults)}", t)
     if status == OUTSIDE:
         return _build_penetration_error(compiled, e_max, p, t)
     if status == STOPPED:
@@ -226,7 +226,7 @@ class RunProgress:
     remaining: float
     advance: float  # of the last `steps` steps together
     steps: int
-    is_crawling: bool  # whether steps became far shorter than before; else its end is too far away
+    is_slowing: bool  # whether steps became far shorter than before; else its end is too far away
 
     @property
     def steps_to_end(self) -> float:
@@ -305,14 +305,14 @@ def _build_stalled_error(compiled: CompiledModel, values: Mapping[str, Any], t_e
     whether they became shorter. `ended` counts the steps that ended at contacts, switching points, frictions and
     events. `e_max` (n_clearances,): largest eccentricities (m).
     """
-    t, (steps, crawls), ended, p = (
+    t, (steps, has_shortened_steps), ended, p = (
         float(values["t_last"]),
         values["paced"].tolist(),
         values["ended"],
         values["p_motion"],
     )
-    progress = RunProgress(t, t_end - t, float(values["gained"]), steps, bool(crawls))
-    if not progress.is_crawling:
+    progress = RunProgress(t, t_end - t, float(values["gained"]), steps, bool(has_shortened_steps))
+    if not progress.is_slowing:
         return build_too_slow_error(progress)
     # a drive that moves this far in such a short step is the cause of the short steps
     fast = format_drive_states(compiled, p, t, MIN_DRIVE_MOTION * progress.steps / max(progress.advance, 1e-300))
@@ -390,7 +390,11 @@ def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> b
 
 
 def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Array, t: float) -> SolverError | None:
-    """Build the error for a linkage near a dead centre, where constraint equations depend on each other; else None."""
+    """Build the error for a linkage near a dead centre, where constraint equations depend on each other; else None.
+
+    `last_state`: state before the failure, of which q is tested; t (s): time for the message. The advice depends on
+    whether the scene has drives.
+    """
     rows = find_nearly_dependent_equations(compiled, p, t, np.ravel(last_state)[: compiled.n])
     if not rows:
         return None

@@ -223,7 +223,10 @@ class KinematicRun:
         return last
 
     def _build_error(self, status: int) -> SolverError:
-        """Build the error for a nonzero status of C: no progress (STALLED), an undefined value, or no solution."""
+        """Build the error for a nonzero status of C: no progress (STALLED), an undefined value, or no solution.
+
+        STALLED gives two errors: a motion that becomes ever faster, or samples that take too long.
+        """
         failure_time, time_advance, steps, is_slowing = self._read_progress()
         t, t_end = float(failure_time[0]), float(self.problem.t[-1])
         if status == STALLED:
@@ -277,14 +280,17 @@ class KinematicRun:
     def build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """Return the complete samples as a Trajectory, with events up to the last one.
 
-        They are stored in it: whether Ctrl-C `interrupted` the run, and the error that `stopped` it or None.
+        Also stored in it: whether Ctrl-C `interrupted` the run, the error that `stopped` it or None, the number of
+        steps, the largest residuals, the time spent in C, and the interpolated singular positions as `change_points`.
         """
         rows, first = slice(self.last_complete + 1), np.zeros(1)
-        passed = self.compiled.lib.gudgeon_kinematic_count_interpolated(
+        n_interpolated = self.compiled.lib.gudgeon_kinematic_count_interpolated(
             self.pointer(self.motion_struct, "void *"), self.pointer(first)
         )
         t, n_steps, (phi_max, phi_dot_max) = self.t[rows].copy(), int(self.call_counts[0]), self.maxima.tolist()
-        events, lost = (make_empty_events(), make_empty_events()) if self.events is None else self.events.sort_events()
+        events, undefined = (
+            (make_empty_events(), make_empty_events()) if self.events is None else self.events.sort_events()
+        )
         return Trajectory(
             t,
             self.q[rows],
@@ -300,8 +306,8 @@ class KinematicRun:
             stopped=stopped,
             seconds=self.seconds,
             events=events[events["t"] <= t[-1]],
-            undefined_events=lost[lost["t"] <= t[-1]],
-            change_points=(passed, float(first[0])),
+            undefined_events=undefined[undefined["t"] <= t[-1]],
+            change_points=(n_interpolated, float(first[0])),
         )
 
 

@@ -122,20 +122,20 @@ class KinematicEnsemble:
     ) -> None:
         """Compute the runs with these indices in the calling thread, without Python's global lock.
 
-        In `lanes`, several runs are computed at once, each in a row of `storages`; otherwise the first row is used.
-        Runs that are over are skipped. No run begins once the batch is ending. `is_complete`: with all states and
-        works, and without the series of `set_series`.
+        In `lanes`, several runs are computed at once, each in a row of `storages` (memory of C); otherwise the first
+        row is used, one run after the other. Runs that are over are skipped. No run begins once the batch is ending.
+        `is_complete`: with all states and works, and without the series of `set_series`.
         """
         struct = self._complete_struct if is_complete else self._struct
         self.compiled.lib.switch_library_if_ready()
-        numbers, ffi = np.array(indices, np.int_), self.compiled.ffi
-        if lanes and len(numbers) > 1:
+        run_indices, ffi = np.array(indices, np.int_), self.compiled.ffi
+        if lanes and len(run_indices) > 1:
             rows = [find_memory_address(ffi, row) for row in storages]
-            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", struct)), rows, numbers)
+            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", struct)), rows, run_indices)
             return
         storage = self.compiled.pointer(storages[0], "void *", True)
-        numbers_pointer = self.compiled.pointer(numbers, "long *")
-        self.compiled.lib.gudgeon_kinematic_ensemble(struct, storage, len(numbers), numbers_pointer)
+        indices_pointer = self.compiled.pointer(run_indices, "long *")
+        self.compiled.lib.gudgeon_kinematic_ensemble(struct, storage, len(run_indices), indices_pointer)
 
     def compute_short_run(self, problem: Problem) -> bool:
         """Compute the only run of the batch and return whether it is complete.

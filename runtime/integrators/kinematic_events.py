@@ -32,8 +32,9 @@ class KinematicEvents:
     def search_events(self, run_state: KinematicRun, first: int, last: int) -> bool:
         """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
 
-        Events are appended to `found_events`. The last interval is searched slightly beyond the end. Raises SolverError
-        where the constraint equations have no solution between the samples.
+        Events are appended to `found_events`; `capacity` grows if one interval has more. The last interval of the run
+        is searched slightly beyond the end, where a failure is ignored. Raises SolverError where the constraint
+        equations have no solution between the samples.
         """
         times, n_done = run_state.t[first : last + 1], 0
         if last == len(self.problem.t) - 1:  # searched beyond the end, for zeros at the end
@@ -61,7 +62,7 @@ class KinematicEvents:
         are found in one call.
         """
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
-        event_times, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
+        event_times, event_indices = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
         status = self.problem.compiled.lib.gudgeon_kinematic_events(
             pointer(run_state.motion_struct, "void *"),
             len(times) - 1,
@@ -74,13 +75,13 @@ class KinematicEvents:
             pointer(self.signs, "signed char *"),
             self.capacity,
             pointer(event_times),
-            pointer(which, "int *"),
+            pointer(event_indices, "int *"),
             pointer(counts, "long *"),
             pointer(counts[1:], "long *"),
         )
         run_state.cancellation_poll.raise_stored(status == STOPPED)
         new_events = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
-        new_events["event"], new_events["t"] = which[: len(new_events)], event_times[: len(new_events)]
+        new_events["event"], new_events["t"] = event_indices[: len(new_events)], event_times[: len(new_events)]
         self.found_events = np.concatenate([self.found_events, new_events])
         return int(status), int(counts[1])
 
@@ -89,6 +90,6 @@ class KinematicEvents:
 
         Both are arrays (EVENT_DTYPE). Times beyond the end are set to the end.
         """
-        events, lost = split_undefined_events(self.problem.compiled, self.found_events)
+        events, undefined = split_undefined_events(self.problem.compiled, self.found_events)
         events["t"] = np.minimum(events["t"], self.end)
-        return events, lost[np.unique(lost["event"], return_index=True)[1]]
+        return events, undefined[np.unique(undefined["event"], return_index=True)[1]]

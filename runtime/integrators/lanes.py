@@ -164,8 +164,9 @@ class LaneProvider:
     def _is_worth_compiling(self, runs: Runs) -> bool:
         """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S.
 
-        For kinematic runs the limit is multiplied by KINEMATIC_REMAINING_FACTOR. The estimate is the mean time of the
-        runs that are over; without any, return False. Runs of later batches count (`announce_later_runs`).
+        The estimate is the elapsed wall time of the batch, divided by the number of finished runs and multiplied by
+        that of the remaining ones; without a finished run, return False. For kinematic runs the limit is multiplied by
+        KINEMATIC_REMAINING_FACTOR. Runs of later batches count (`announce_later_runs`).
         """
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
         required = MIN_REMAINING_S * (KINEMATIC_REMAINING_FACTOR if runs.kinematic else 1.0)

@@ -63,10 +63,10 @@ class ReusableRun(Runs):
     def update_tolerances(self, k: int) -> bool:
         """Compute size and tolerances of row k from its parameter values; return whether all clearances are resolved.
 
-        A clearance is not resolved if it is below rounding at the mechanism's size. Nothing is computed if the lengths
-        have not changed since the last call.
+        A clearance is not resolved if it is below rounding at the mechanism's size; the size is then not stored.
+        Nothing is computed, and True returned, if the lengths have not changed since the last resolved call.
         """
-        key = self.columns.p[k].take(self.columns.size_slots).tobytes()
+        key = self.columns.p[k].take(self.columns.length_indices).tobytes()
         if key == self._tolerance_keys[k]:
             return True
         self._tolerance_keys[k] = b""
@@ -98,7 +98,10 @@ class ReusableRun(Runs):
         return status
 
     def _integrate(self, k: int) -> int:
-        """Integrate the run in row k in C and return its status. Raises KeyboardInterrupt after Ctrl-C."""
+        """Integrate the run in row k in C and return its status. Raises KeyboardInterrupt after Ctrl-C.
+
+        Full lists of contacts and events are discarded; the run then continues.
+        """
         lib, current = self.compiled.lib, self._current
         lib.switch_library_if_ready()
         self._phase[k], self._done[k], self._checked[k] = NEW, 0, 0

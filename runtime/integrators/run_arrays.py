@@ -113,7 +113,12 @@ class RunLayout(NamedTuple):
 
 
 def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
-    """Return type, shape and initial value of each array of n runs, by name."""
+    """Return type, shape and initial value of each array of n runs, by name: start, progress, results and audit of a
+    run.
+
+    Names are those of C's struct Batch (engine/scene/calls.h describes them). `remembered` and `codes` are the discrete
+    states and contact codes at the start.
+    """
     n_coordinates, n_memory, n_clearances = sizes.n_coordinates, max(sizes.n_memory, 1), max(sizes.n_clearances, 1)
     return {
         "start": (np.float64, (n, 2 * n_coordinates), np.nan),
@@ -145,7 +150,8 @@ def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
 def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str, Field]]:
     """Return type, shape and initial value of the other arrays of a single run, by name: inputs, then samples.
 
-    Samples begin with the contact codes, which are zero.
+    Samples begin with the contact codes, which are zero. Names are those of C's struct Batch; `latched` has the
+    discrete states of each sample, `least` L and L/S of `adaptive.compute_tolerances`.
     """
     N = sizes.n_samples
     inputs: dict[str, Field] = {
@@ -167,7 +173,11 @@ def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str
 
 @lru_cache(maxsize=64)
 def _compute_run_layout(sizes: RunSizes) -> RunLayout:
-    """Return the memory layout of the block of one run, cached by sizes; each array begins at a multiple of 8 bytes."""
+    """Return the memory layout of the block of one run, cached by sizes; each array begins at a multiple of 8 bytes.
+
+    The block has C's struct Batch (STRUCT_BYTES), the arrays of the run, its inputs, then its samples. The layout
+    contains the initial bytes of all arrays before the samples.
+    """
     inputs, samples = _list_single_run_fields(sizes)
     values = _list_run_fields(1, sizes) | inputs
     fields, offset = dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]](), STRUCT_BYTES

@@ -65,14 +65,15 @@ class SingleRun(Runs):
     def begin_problem(self, problem: Problem) -> None:
         """Reset the arrays for C, and set start, times, parameter values, tolerances and observer of the next run.
 
-        The results of the previous run are overwritten.
+        The results of the previous run are overwritten. The parameters of the motion are `p_motion` (without Baumgarte
+        gains) unless the method is rk4.
         """
         compiled, x, n = self.compiled, self.arrays, self.compiled.n
         assert isinstance(x, SingleRunArrays)
         x.reset_head(self._head)
         x["t"][:], x["step"][0], x["p"][0] = problem.t, problem.step, problem.p
-        is_given = problem.method == "rk4" or problem.p_free is None
-        x["p_motion"][0] = problem.p if is_given else problem.p_free
+        is_given = problem.method == "rk4" or problem.p_motion is None
+        x["p_motion"][0] = problem.p if is_given else problem.p_motion
         x["t_last"][0] = problem.t[0]
         x["scale"][:], x["least"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
             compiled, problem.p[None], self.rtol

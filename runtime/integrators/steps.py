@@ -70,7 +70,11 @@ class StepLog:
             self.observer(self._convert_rows_to_steps(self.rows[:count].copy()))
 
     def _convert_rows_to_steps(self, rows: Array) -> Steps:
-        """Convert rows that C wrote (head, state, discrete states, contact codes) to Steps."""
+        """Convert rows that C wrote to Steps: each has head (time, whether a jump precedes), state, discrete states,
+        codes.
+
+        The state is q, q̇ and the works; the last part has the contact code of each joint with play.
+        """
         (head, y, discrete_states, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(

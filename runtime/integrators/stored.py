@@ -67,7 +67,7 @@ class Contacts:
     """Collect the contacts of the runs of a batch; each thread has its own lists."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.all = compiled, list[_ThreadContacts]()
+        self.compiled, self.thread_contacts = compiled, list[_ThreadContacts]()
         self.of_thread: dict[int, _ThreadContacts] = {}  # by the thread's identity
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
@@ -78,30 +78,31 @@ class Contacts:
         fetched = self.of_thread.get(get_ident())
         if fetched is None:
             fetched = self.of_thread[get_ident()] = _ThreadContacts(self.compiled)
-            self.all.append(fetched)
+            self.thread_contacts.append(fetched)
         fetched.fetch_contacts(i, run, is_over)
 
     def join_contacts(self, n_runs: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
         """Return the contacts (IMPACT_DTYPE) of all n runs sorted by run and onset, and the first index of each run.
 
-        The indices have the shape (n + 1,). Called once, after all threads have ended: the lists are cleared.
+        The contacts were fetched by several threads. The indices have the shape (n + 1,). Called once, after all
+        threads have ended: the lists are cleared.
         """
-        if not self.all:
+        if not self.thread_contacts:
             return np.zeros(0, IMPACT_DTYPE), np.zeros(n_runs + 1, np.int_)
-        runs = np.array([i for each in self.all for i in each.runs], np.int_)
-        counts = np.array([count for each in self.all for count in each.counts], np.int_)
+        runs = np.array([i for each in self.thread_contacts for i in each.runs], np.int_)
+        counts = np.array([count for each in self.thread_contacts for count in each.counts], np.int_)
         begins, by_run = np.cumsum(counts) - counts, np.argsort(runs, kind="stable")
         begins, counts = begins[by_run], counts[by_run]
-        whose = np.repeat(runs[by_run], counts)
-        row = np.repeat(begins - (np.cumsum(counts) - counts), counts) + np.arange(len(whose))
-        blocks = [block for each in self.all for block in each.list_blocks()]
-        numbers = np.concatenate([np.zeros((0, N_IMPACT_COLUMNS)), *(numbers for numbers, _ in blocks)])
+        run_of_contact = np.repeat(runs[by_run], counts)
+        row = np.repeat(begins - (np.cumsum(counts) - counts), counts) + np.arange(len(run_of_contact))
+        blocks = [block for each in self.thread_contacts for block in each.list_blocks()]
+        values = np.concatenate([np.zeros((0, N_IMPACT_COLUMNS)), *(values for values, _ in blocks)])
         joints = np.concatenate([np.zeros(0, np.intc), *(joints for _, joints in blocks)])
-        self.all.clear()
+        self.thread_contacts.clear()
         # sort by run, then onset: complex numbers are ordered by real parts first; faster than lexsort here, since the
         # rows are nearly sorted
-        row = row[np.argsort(whose + 1j * numbers[row, IMPACT_t_on], kind="stable")]
-        return _convert_contacts(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n_runs + 1))
+        row = row[np.argsort(run_of_contact + 1j * values[row, IMPACT_t_on], kind="stable")]
+        return _convert_contacts(values[row], joints[row]), np.searchsorted(run_of_contact, np.arange(n_runs + 1))
 
 
 class _ThreadContacts:
@@ -109,33 +110,36 @@ class _ThreadContacts:
 
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.runs, self.counts = compiled, list[int](), list[int]()
-        self.full: list[tuple[NDArray[Any], NDArray[Any]]] = []
+        self.full_blocks: list[tuple[NDArray[Any], NDArray[Any]]] = []
         self._allocate_block(FIRST_BLOCK_CONTACTS)
 
     def _allocate_block(self, capacity: int) -> None:
         """Allocate an empty block for `capacity` contacts, with C pointers to it."""
-        self.numbers, self.joints, self.n = np.empty((capacity, N_IMPACT_COLUMNS)), np.empty(capacity, np.intc), 0
+        self.values, self.joints, self.n = np.empty((capacity, N_IMPACT_COLUMNS)), np.empty(capacity, np.intc), 0
         pointer = self.compiled.pointer
-        self.pointers = pointer(self.numbers, is_written=True), pointer(self.joints, "int *", is_written=True)
+        self.pointers = pointer(self.values, is_written=True), pointer(self.joints, "int *", is_written=True)
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
-        """Fetch the ended contacts of run i from C into blocks, allocated as needed; with `is_over` all contacts."""
+        """Fetch the ended contacts of run i from C into blocks, allocated as needed; with `is_over` all contacts.
+
+        Appends i to `runs` and the number of contacts to `counts`. `run`: C's integrator, whose list is then empty.
+        """
         self.runs.append(i)
         self.counts.append(0)
         while True:
-            (numbers, joints), n_free = self.pointers, len(self.joints) - self.n
-            to = numbers + N_IMPACT_COLUMNS * self.n, joints + self.n
+            (values_pointer, joints_pointer), n_free = self.pointers, len(self.joints) - self.n
+            to = values_pointer + N_IMPACT_COLUMNS * self.n, joints_pointer + self.n
             count = self.compiled.lib.gudgeon_run_impacts(run, is_over, n_free, *to)
             self.counts[-1] += count
             self.n += count
             if count < n_free:
                 return
-            self.full = self.list_blocks()
+            self.full_blocks = self.list_blocks()
             self._allocate_block(BLOCK_CONTACTS)
 
     def list_blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
         """Return all blocks, the last cut to its length: values (n, N_IMPACT_COLUMNS) and joint indices (n,)."""
-        return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]
+        return [*self.full_blocks, (self.values[: self.n], self.joints[: self.n])]
 
 
 Samples: TypeAlias = tuple[Array, Array, Array, NDArray[Any]]
@@ -146,7 +150,7 @@ class _PythonLists(NamedTuple):
 
     impacts: NDArray[Any]
     events: NDArray[Any]
-    no_number: NDArray[Any]
+    undefined_events: NDArray[Any]
 
 
 class StoredRuns:
@@ -207,7 +211,7 @@ class StoredRuns:
         They are stored in `contacts`, the index of the first contact of each run in `first_contact_indices`.
         """
         if not self.python_lists:
-            if not self.fetched.all:
+            if not self.fetched.thread_contacts:
                 return  # they are empty already
             self.contacts, self.first_contact_indices = self.fetched.join_contacts(self.n)
             return
@@ -217,7 +221,8 @@ class StoredRuns:
     def store_trajectory(self, i: int, trajectory: Trajectory) -> None:
         """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays.
 
-        The run is marked as over, and an error is recorded in `failures`.
+        The run is marked as over. Its status tells whether it ended before its last time or was interrupted; an error
+        is recorded in `failures`. Contacts and events are stored as lists.
         """
         x, k, N, n = self.arrays, int(self.arrays["sample_block"][i]), len(trajectory.t), self.compiled.n
         for columns, values in (
@@ -280,15 +285,15 @@ class StoredRuns:
         For runs in C both contain the states there (build_event_dtype), and events after the last sample are dropped.
         """
         if i in self.python_lists:
-            return self.python_lists[i].events, self.python_lists[i].no_number
+            return self.python_lists[i].events, self.python_lists[i].undefined_events
         if i not in self.events:
             return (empty := make_empty_event_states(self.compiled)), empty
         x, times = self.arrays, self.times.get_times(i)
-        events, lost = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
+        events, undefined = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
-            return events, lost
+            return events, undefined
         t_last = self.get_reached_times(i)[-1] + compute_time_resolution(times)
-        return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
+        return events[events["t"] <= t_last], undefined[undefined["t"] <= t_last]
 
     def is_complete(self, i: int) -> bool:
         """Return whether run i has a sample at the last of its output times and was not interrupted."""

@@ -93,7 +93,8 @@ def _compute_kinematic_portions(runs: Runs, portions: deque[range | list[int]], 
 def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
     """Integrate portions of runs in C, in the thread with this index, until the queue is empty or the batch is stopped.
 
-    Runs are integrated in vector lanes as soon as their library pays off, else one by one. Observers get step records.
+    Before each portion, vector lanes are requested (`get_lanes`); once they pay off, they integrate all remaining runs,
+    else the portion is integrated one by one. Observers get step records.
     """
     storages = np.zeros((runs.n_lanes, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
     step_logs, first_row = (

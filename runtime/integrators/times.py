@@ -79,8 +79,8 @@ class Times:
     def select_requested_samples(self, values: Array) -> Array:
         """Return the samples of all runs, (n, N, …), at the requested times, (n, N', …).
 
-        Starts that were not requested are left out. Runs with fewer times are filled with NaN, arrays of integers with
-        0. A view is returned if all runs, or none, requested their start.
+        Starts that were not requested are left out (n_skipped is 1 for such a run). Runs with fewer times are filled
+        with NaN, arrays of integers with 0. A view is returned if all runs, or none, requested their start.
         """
         if (self.n_skipped == self.n_skipped[:1]).all():
             return values[:, self.n_skipped[:1].sum() :]
@@ -105,5 +105,5 @@ def compute_last_step(duration: float, step: float) -> float:
     A remainder equal to `step` up to rounding counts as `step`, as in step_end in numbers.h.
     """
     total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
-    rest = duration - (total - 1) * step
-    return step if abs(rest - step) < LAST_STEP_TOL * step else rest
+    remainder = duration - (total - 1) * step
+    return step if abs(remainder - step) < LAST_STEP_TOL * step else remainder

@@ -94,7 +94,7 @@ class Problem:
     state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one resumes
     method: str = "rk4"
     rtol: float = 0.0  # tolerance of methods that control their step
-    p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
+    p_motion: Array | None = None  # p without Baumgarte's gains, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # notes on the start, which come first in the run's notes
     start_is_sample: bool = True  # False: t[0] was not requested
@@ -235,8 +235,8 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         part["memory"], part["state"] = discrete_states[:count, : compiled.n_memory], state[:count, :joints]
         parts.append(part)
     fetched = np.concatenate(parts)
-    no_number = fetched["event"] >= len(compiled.source.events)
-    return fetched[no_number | (fetched["t"] > times[0] + compute_time_resolution(times))]
+    is_undefined = fetched["event"] >= len(compiled.source.events)
+    return fetched[is_undefined | (fetched["t"] > times[0] + compute_time_resolution(times))]
 
 
 def split_undefined_events(compiled: CompiledModel, events: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:

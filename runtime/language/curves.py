@@ -132,7 +132,8 @@ class Curve:
     def evaluate(self, x: Any, order: int = 0) -> Any:
         """Return the values or derivatives of the given order (0 to 3) at x, a number or an array, in SI.
 
-        Outside its range a curve is periodic, constant (hold) or linear as its options say, else NaN.
+        At a knot the piece to the right counts. Outside its range a curve is periodic, constant (hold) or linear as its
+        options say, else NaN.
         """
         x = np.asarray(x, dtype=float)
         (knots, pieces), first, last = self._tables, self.x[0], self.x[-1]
@@ -150,7 +151,8 @@ class Curve:
         """Return `value` with the entries outside the range replaced by those of the extrapolation; unchanged without
         one.
 
-        value, x: values or derivatives of the given order at arguments x, already evaluated at the nearest end.
+        value, x: values or derivatives of the given order at arguments x, already evaluated at the nearest end. With
+        `hold`, derivatives are 0 outside; with `line`, the slope of the end continues and higher derivatives are 0.
         """
         if self.extrapolate == HOLD and order:
             return np.where((x < self.x[0]) | (x > self.x[-1]), 0.0, value)
@@ -232,9 +234,10 @@ def compute_spline(
 ) -> tuple[tuple[float, float, float, float], ...]:
     """Return the coefficients (n, 4) of the cubic spline or monotone cubic through the points (x, y), x increasing.
 
-    Ends: natural (no second derivative), clamped (no slope), not_a_knot (the first two pieces are one polynomial, and
-    the last two), periodic (slope and second derivative of the end equal those of the beginning). For a monotone
-    cubic, natural means end slopes from three points, limited to keep it monotone.
+    Row k has the factors of the powers 0 to 3 of x − x[k]. Ends: natural (no second derivative), clamped (no slope),
+    not_a_knot (the first two pieces are one polynomial, and the last two), periodic (slope and second derivative of the
+    end equal those of the beginning). For a monotone cubic, natural means end slopes from three points, limited to keep
+    it monotone.
     """
     h = [b - a for a, b in zip(x, x[1:], strict=False)]
     mean_slopes = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
@@ -297,7 +300,7 @@ def _build_not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[
 def _compute_periodic_slopes(h: Sequence[float], mean_slopes: Sequence[float]) -> list[float]:
     """Return the slopes at all knots of a periodic spline, by two tridiagonal solves (Sherman–Morrison formula).
 
-    h, mean_slopes: lengths and mean slopes of the pieces.
+    h, mean_slopes: lengths and mean slopes of the n pieces. The last of the n + 1 slopes equals the first.
     """
     before = [h[-1], *h[:-1]]
     rows = [
@@ -342,8 +345,8 @@ def compute_monotone_slopes(
     """Return the slopes at all knots of a monotone cubic: weighted harmonic means of the mean slopes on both sides, 0
     at extrema.
 
-    h, mean_slopes: lengths and mean slopes of the pieces, (n,). is_periodic: of the curve. has_flat_ends: the
-    slopes at both ends are 0.
+    h, mean_slopes: lengths and mean slopes of the pieces, (n,). is_periodic: of the curve. has_flat_ends: the slopes at
+    both ends are 0; else they follow from three points, or are the mean slope of a single piece.
     """
     if is_periodic:
         inner = [

@@ -23,12 +23,16 @@ _MAX_EXPONENT = 24  # largest exponent of a dimension: mechanics needs no larger
 
 @dataclass(frozen=True)
 class _Flexible:
-    """Dimension of a value that fits any dimension: a bare number (`pure`), or a product with a unitless parameter."""
+    """Dimension of a value that fits any dimension.
 
-    pure: bool
+    `is_unitless_number`: a number without unit, or numbers combined; it is a pure number in a product with a quantity.
+    Else it is a product with a parameter without unit, whose dimension stays open.
+    """
+
+    is_unitless_number: bool
 
 
-_BARE, _ANY = _Flexible(True), _Flexible(False)
+_UNITLESS_NUMBER, _ANY_DIMENSION = _Flexible(True), _Flexible(False)
 _DimensionOrFlexible = Dimension | _Flexible
 
 
@@ -37,8 +41,8 @@ def check_dimension(
 ) -> Dimension | None:
     """Return the dimension of an expression, and check that it is `expected` unless that is None.
 
-    An expression without a unit, a bare number, fits any dimension: `expected` is returned then, also if that is None.
-    get_dimension(path): dimension of a name, None for one that fits any; it may raise. location: of the first
+    A flexible expression, such as a number without unit, fits any dimension: `expected` is returned then, also if that
+    is None. get_dimension(path): dimension of a name, None for one that fits any; it may raise. location: of the first
     character. Raises UnitError with what was found and expected, and hints on names that hide units.
     """
     try:
@@ -55,7 +59,10 @@ def check_dimension(
 
 
 def find_unit_shadowing_names(expr: Expr) -> Iterator[str]:
-    """Yield names of the file that may be meant as units: factors after a number with a unit, as `m` in `3 N/m`."""
+    """Yield names of the file that may be meant as units: factors after a number with a unit, as `m` in `3 N/m`.
+
+    Only names that are also symbols of units are yielded.
+    """
     match expr:
         case Unary(operand=operand):
             yield from find_unit_shadowing_names(operand)
@@ -108,14 +115,15 @@ class _DimensionChecker:
         """Return the dimension of an expression, computed from its leaves up, or that it is flexible (fits any
         dimension).
 
-        Raises UnitError at the location of the first part that does not fit.
+        A number without unit and a name without dimension are flexible. Raises UnitError at the location of the first
+        part that does not fit.
         """
         match expr:
             case Number(text=text, has_unit=has_unit):
                 unit = find_unit(text.partition(" ")[2]) if has_unit else None
-                return unit.dimension if unit else _BARE
+                return unit.dimension if unit else _UNITLESS_NUMBER
             case Name(path=path):
-                return self._get_dimension(path) or _ANY
+                return self._get_dimension(path) or _ANY_DIMENSION
             case Unary(operand=operand):
                 return self.find_dimension(operand)
             case CurveCall():
@@ -136,15 +144,18 @@ class _DimensionChecker:
         return Location(self._where.file, self._where.line, self._where.column + expr.offset)
 
     def _find_common_dimension(self, message_start: str, *parts: Expr) -> _DimensionOrFlexible:
-        """Return the common dimension of all parts, or that all are flexible. Raises UnitError if two differ.
+        """Return the common dimension of the parts of a sum or comparison. Raises UnitError if two dimensions differ.
 
-        message_start: beginning of the message, such as "cannot add".
+        Flexible parts take the dimension of the others. If all are flexible, the result is flexible: a unitless number
+        only if all are. message_start: beginning of the message, such as "cannot add".
         """
-        result: _DimensionOrFlexible = _BARE
+        result: _DimensionOrFlexible = _UNITLESS_NUMBER
         for part in parts:
             part_dimension = self.find_dimension(part)
             if isinstance(part_dimension, _Flexible):
-                result = result if isinstance(result, Dimension) or part_dimension.pure else part_dimension
+                result = (
+                    result if isinstance(result, Dimension) or part_dimension.is_unitless_number else part_dimension
+                )
             elif isinstance(result, Dimension) and part_dimension != result:
                 message = f"{message_start}: {describe_dimension(result)} and {describe_dimension(part_dimension)}"
                 raise UnitError(message, self._find_location(part), f"expected {describe_dimension(result)}")
@@ -153,7 +164,12 @@ class _DimensionChecker:
         return result
 
     def _check_call(self, call: Call) -> _DimensionOrFlexible:
-        """Return the dimension of a function's value, after checking those of its arguments. Raises UnitError."""
+        """Return the dimension of a function's value, after checking those of its arguments. Raises UnitError.
+
+        By the `units` of the function: SAME and CHOICE give the common dimension of the arguments (of the two results
+        of `where`), RATIO a pure number from equal dimensions, ROOT half the exponents. Other functions need a pure
+        number and give one, or a unitless number if the argument is flexible.
+        """
         units, unlike = FUNCTIONS[call.function].units, f"{call.function} of unlike quantities"
         if units is Units.SAME:
             return self._find_common_dimension(unlike, *call.arguments)
@@ -172,7 +188,9 @@ class _DimensionChecker:
                 f"{call.function} expected {describe_dimension(DIMENSIONLESS)}, got {describe_dimension(dimension)}"
             )
             raise UnitError(message, self._find_location(argument))
-        return DIMENSIONLESS if isinstance(dimension, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
+        return (
+            DIMENSIONLESS if isinstance(dimension, Dimension) else _UNITLESS_NUMBER
+        )  # `0.1 * sin(2*pi*t)` may still be a length
 
     def _check_curve(self, call: CurveCall) -> _DimensionOrFlexible:
         """Return the dimension of a curve's value, after checking that of its argument. Raises UnitError."""
@@ -181,19 +199,22 @@ class _DimensionChecker:
         if isinstance(dimension, Dimension) and over is not None and dimension != over:
             message = f"curve {call.function} is over {describe_dimension(over)}, got {describe_dimension(dimension)}"
             raise UnitError(message, self._find_location(argument))
-        return _ANY if call.curve.value is None else call.curve.value
+        return _ANY_DIMENSION if call.curve.value is None else call.curve.value
 
     def _check_product(self, expr: Binary) -> _DimensionOrFlexible:
-        """Return the dimension of a product or quotient; it is flexible with a unitless parameter, or for numbers
-        times `t`.
+        """Return the dimension of a product or quotient.
+
+        It is flexible if a factor is of any dimension, for two unitless numbers, and for unitless numbers times `t`,
+        which may be a rate. In other products a unitless number is a pure number. Raises UnitError for too large
+        exponents.
         """
         left, right = self.find_dimension(expr.left), self.find_dimension(expr.right)
-        if _ANY in (left, right):
-            return _ANY
-        if left == right == _BARE:
-            return _BARE
-        if _BARE in (left, right) and _depends_on_time_only(expr):
-            return _ANY
+        if _ANY_DIMENSION in (left, right):
+            return _ANY_DIMENSION
+        if left == right == _UNITLESS_NUMBER:
+            return _UNITLESS_NUMBER
+        if _UNITLESS_NUMBER in (left, right) and _depends_on_time_only(expr):
+            return _ANY_DIMENSION
         a = left if isinstance(left, Dimension) else DIMENSIONLESS
         b = right if isinstance(right, Dimension) else DIMENSIONLESS
         return self._check_exponent_bounds(a * b if expr.operator == "*" else a / b, expr)
@@ -201,7 +222,8 @@ class _DimensionChecker:
     def _check_power(self, expr: Binary) -> _DimensionOrFlexible:
         """Return the dimension of a power; raise UnitError unless the exponent is a pure number.
 
-        With a dimensional base the exponent must be constant, rational and at most _MAX_EXPONENT.
+        A flexible or dimensionless base is returned as it is. With a dimensional base the exponent must be constant,
+        rational and at most _MAX_EXPONENT.
         """
         base, exponent = self.find_dimension(expr.left), self.find_dimension(expr.right)
         if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:

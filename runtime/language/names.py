@@ -101,7 +101,10 @@ def format_character(character: str) -> str:
 
 
 def suggest_replacement(character: str) -> str:
-    """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones."""
+    """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones.
+
+    Spaces, invisible characters, dashes, and characters with an ASCII equivalent (NFKC) are known.
+    """
     kind = unicodedata.category(character)
     if character.isascii():
         return ""
@@ -119,8 +122,10 @@ def describe_lookalike(name: str) -> str:
     """Return "it contains U+00A0 (no-break space): …; " for the first character of a name that looks like another;
     else "".
     """
-    odd = next((character for character in name if not character.isascii() and suggest_replacement(character)), "")
-    return f"it contains {format_character(odd)}: {suggest_replacement(odd)}; " if odd else ""
+    lookalike = next(
+        (character for character in name if not character.isascii() and suggest_replacement(character)), ""
+    )
+    return f"it contains {format_character(lookalike)}: {suggest_replacement(lookalike)}; " if lookalike else ""
 
 
 def find_near_names(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:
@@ -150,10 +155,10 @@ def format_name_hint(name: str, known_names: Iterable[str], max_names: int = 12)
     guess = find_nearest_name(name, candidates)
     name_list = ", ".join(candidates[:max_names]) + (", …" if len(candidates) > max_names else "")
     expected = f"expected one of: {name_list}" if candidates else "none is defined"
-    odd = describe_lookalike(name)
+    lookalike_text = describe_lookalike(name)
     if candidates == [guess]:
-        return f"{odd}did you mean {guess!r}?"
-    return f"{odd}did you mean {guess!r}? {expected}" if guess else odd + expected
+        return f"{lookalike_text}did you mean {guess!r}?"
+    return f"{lookalike_text}did you mean {guess!r}? {expected}" if guess else lookalike_text + expected
 
 
 def make_unknown_name_error(

@@ -36,7 +36,10 @@ def derive_unit(expression: Expr, get_unit: Callable[[str], str | None]) -> str:
 
 
 def parse_exponents(unit: str) -> Exponents:
-    """Return the exponents of m, kg, s, rad of an SI unit such as "kg*m^2/s". Raises ValueError for any other text."""
+    """Return the exponents of m, kg, s, rad of an SI unit such as "kg*m^2/s"; derived units such as N count too.
+
+    "1" has no exponents; a "/" inverts the next factor only. Raises ValueError for any other text.
+    """
     total = list(_PLAIN)
     sign = 1
     for part in unit.replace("*", " * ").replace("/", " / ").split():
@@ -55,9 +58,10 @@ def parse_exponents(unit: str) -> Exponents:
 
 
 def _derive_exponents(expression: Expr, get_unit: Callable[[str], str | None]) -> Exponents | None:
-    """Return the exponents of an expression's unit; None for a bare number, which fits any unit.
+    """Return the exponents of an expression's unit; None for a number without unit, which fits any unit.
 
-    Raises ValueError for a unit that is not SI.
+    get_unit(path): unit of a name, None for one without. A power needs a literal exponent; other expressions count as
+    pure numbers. Raises ValueError for a unit that is not SI.
     """
     match expression:
         case Number():
@@ -131,7 +135,11 @@ def _format_exponents(exponents: Exponents) -> str:
 
 
 def find_angle_power(expression: Expr) -> int:
-    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg."""
+    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg.
+
+    Products add, quotients subtract; of the terms of a sum and of equal arguments the largest counts. A function that
+    returns an angle gives 1. Names, powers and curves give 0.
+    """
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]

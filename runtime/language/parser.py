@@ -67,7 +67,10 @@ class _Parser:
         self.registered: list[Expr] = []  # nodes whose ids are in use
 
     def parse_all(self) -> Expr:
-        """Return the tree of the whole text. Raises ExpressionError if anything follows the expression."""
+        """Return the tree of the whole text. Raises ExpressionError if anything follows the expression.
+
+        The hint proposes a comparison or a decimal point if that may be meant.
+        """
         expr = self.parse_sum(0)
         if self.token.kind != "end":
             self.raise_error(
@@ -98,7 +101,8 @@ class _Parser:
     def register_node(self, expr: Expr, *children: Expr) -> Expr:
         """Register a new node with its depth and number of nodes, and return it.
 
-        children: its direct operands. Raises LimitError if the tree exceeds the limits.
+        children: its direct operands. Arguments of functions that are expanded later count several times
+        (ARGUMENT_COPIES). Raises LimitError if the tree exceeds the limits.
         """
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
@@ -206,8 +210,9 @@ class _Parser:
         return base
 
     def parse_atom(self, level: int) -> Expr:
-        """Return the tree of a number, a name, a call or an expression in brackets. Raises ExpressionError for
-        anything else.
+        """Return the tree of a number, a name, a call or an expression in brackets, and advance after it.
+
+        level: depth of nesting. Raises ExpressionError for anything else.
         """
         token = self.token
         if token.number is not None:
@@ -263,7 +268,8 @@ class _Parser:
     def parse_arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
         """Return the trees of the arguments in brackets after checking their number.
 
-        function: token of the function or curve. The arguments of `where` are ordered as if `<` had been written.
+        function: token of the function or curve. The first argument of `where` is a comparison, which gives two trees.
+        They are ordered as if `<` had been written. Raises ExpressionError.
         """
         opened, is_where = self.advance().offset, function.text == "where"
         left = self.parse_sum(level)

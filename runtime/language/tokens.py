@@ -153,8 +153,8 @@ class Tokenizer:
     def _parse_number(self, literal: str, start: int) -> Token:
         """Return the token of a number or pi in SI, including the unit that follows it, and advance.
 
-        literal: its text at offset `start`. Raises ExpressionError for values out of range, UnitError for unknown
-        units.
+        literal: its text at offset `start`. Raises ExpressionError for values out of range or below the smallest normal
+        double, UnitError for unknown units.
         """
         value = Fraction(math.pi) if literal == "pi" else self._parse_literal(literal, start)
         unit, end = self._parse_following_unit(start)
@@ -235,7 +235,11 @@ class Tokenizer:
         return None, end
 
     def _check_unit_power(self, start: int) -> None:
-        """Raise UnitError if the unit text at offset `start` is in brackets or has a power that is not allowed."""
+        """Raise UnitError if the unit text at offset `start` is in brackets or has a power that is not allowed.
+
+        Powers are 1 to 9, −1 to −9 and halves of these, without spaces. The hint gives the accepted form. Called before
+        a unit is parsed.
+        """
         if (bracketed := _BRACKETED.match(self.text, start)) and find_unit(bracketed[1]):
             hint = "each unit has its own power: m^2/s^2 for (m/s)^2"
             self.raise_error(f"brackets around the unit {bracketed[1]}", start, hint, UnitError)

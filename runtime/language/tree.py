@@ -96,7 +96,10 @@ def evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
 
 
 def _evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
-    """Return the value of an expression recursively for `evaluate`, with the current error state of NumPy."""
+    """Return the value of an expression recursively for `evaluate`, with the current error state of NumPy.
+
+    get_value(path): value of a name, a number or an array. Numbers are np.float64, so that 1/0 gives infinity.
+    """
     match expr:
         case Number(value=value):
             return np.float64(value)
@@ -146,7 +149,7 @@ def iterate_units(expr: Expr) -> Iterator[str]:
 def replace_names(expr: Expr, replacements: Mapping[str, Expr]) -> Expr:
     """Return a copy of an expression in which the names in `replacements` are replaced by their trees.
 
-    Other names remain. All occurrences of a name share one tree object.
+    Other names and numbers remain. All occurrences of a name share one tree object.
     """
     match expr:
         case Name():
@@ -161,7 +164,10 @@ def replace_names(expr: Expr, replacements: Mapping[str, Expr]) -> Expr:
 
 
 def iterate_calls(expr: Expr, function: str = "") -> Iterator[Call]:
-    """Yield every call in an expression, or only the calls of one function."""
+    """Yield every call in an expression, or only the calls of one function; a call precedes those in its arguments.
+
+    Calls of curves count, by the name of the curve. All branches of a `where` are searched.
+    """
     match expr:
         case Unary(operand=operand):
             yield from iterate_calls(operand, function)
@@ -203,7 +209,10 @@ def iterate_curve_calls(expr: Expr) -> Iterator[CurveCall]:
 
 
 def list_functions(expr: Expr) -> set[str]:
-    """Return the set of names of the functions that an expression calls; extrapolated curves call min and max."""
+    """Return the set of names of the functions that an expression calls.
+
+    A curve does not count; an extrapolated curve counts as calls of min and max. Arguments are searched too.
+    """
     match expr:
         case Unary(operand=operand):
             return list_functions(operand)
@@ -238,7 +247,10 @@ def to_json(expr: Expr) -> Any:
 
 
 def from_json(data: Any) -> Expr:
-    """Return the expression from the nested lists that `to_json` wrote."""
+    """Return the expression from the nested lists that `to_json` wrote.
+
+    Texts and units of numbers and offsets of nodes are not restored.
+    """
     if isinstance(data, (int, float)):
         return Number(float(data))
     if isinstance(data, str):

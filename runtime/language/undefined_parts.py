@@ -72,7 +72,10 @@ def _iterate_masked_parts(expr: Expr, known_values: Mapping[str, float]) -> Iter
 
 
 def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator[Expr]:
-    """Yield the maximal parts of an expression that depend only on `known_names`; a divisor as 1 over it."""
+    """Yield the maximal parts of an expression that depend only on `known_names`.
+
+    A part that divides, as a divisor or the last argument of a function in DIVIDING, is yielded as 1 over it.
+    """
     if all(name.path in known_names for name in iterate_names(expr)):
         yield expr
         return
@@ -104,8 +107,9 @@ def find_possibly_undefined_cases(expr: Expr, known_values: Mapping[str, NDArray
 
 
 def _iterate_parts(expr: Expr) -> Iterator[Expr]:
-    """Yield all parts of an expression, and 1 over the divisors within functions; the expression itself is not
-    included.
+    """Yield all operands and arguments in an expression, at every depth; the expression itself is not included.
+
+    For functions in DIVIDING, 1 over their last argument is yielded too.
     """
     match expr:
         case Unary(operand=operand):

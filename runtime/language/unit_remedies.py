@@ -106,12 +106,12 @@ _POWERS = tuple(Fraction(n, 2) for n in (4, 6, 2, 8, 3, 1, -2, -4, *range(10, 19
 class _Factor:
     """A unit symbol with its power, None if that is not a number.
 
-    `either`: the power may have the other sign, as m in `N/s m`.
+    `is_sign_ambiguous`: the power may have the other sign, as m in `N/s m`.
     """
 
     symbol: str
     power: Fraction | None
-    either: bool = False  # m in `N/s m`
+    is_sign_ambiguous: bool = False  # m in `N/s m`
 
 
 @dataclass(frozen=True)
@@ -142,11 +142,13 @@ def add_unit_hints(
     try:
         yield
     except (UnitError, ExpressionError, UnknownNameError, InputErrors) as caught:
-        mended = dict[str, InputError]()  # by hint: several errors may have the same correction
+        errors_by_hint = dict[str, InputError]()  # by hint: several errors may have the same correction
         for error in caught.errors if isinstance(caught, InputErrors) else [caught]:
             hint = _find_remedy(error, text, location, check_value, expected, names)
-            mended.setdefault(hint or str(error), type(error)(error.message, error.where, hint) if hint else error)
-        raise combine_errors(mended.values()) from None
+            errors_by_hint.setdefault(
+                hint or str(error), type(error)(error.message, error.where, hint) if hint else error
+            )
+        raise combine_errors(errors_by_hint.values()) from None
 
 
 def _find_remedy(
@@ -174,7 +176,11 @@ def _find_remedy(
         return ""
 
     def list_accepted_proposals(proposals: Iterable[str], max_count: int) -> list[str]:
-        """Return the first `max_count` proposals that give a valid value in place of the quantity, each once."""
+        """Return the first `max_count` proposals that give a valid value in place of the quantity, each once.
+
+        After a division or power sign, proposals with a product get brackets. The quantity as it is written is left
+        out.
+        """
         before, after = text[: quantity.begin], text[quantity.end :]
         divides = before.rstrip().endswith(("/", "**"))
         bracketed = (
@@ -224,7 +230,8 @@ def _is_accepted(
 def _find_quantity(text: str, offset: int, names: Container[str]) -> _Quantity | None:
     """Return the number with its unit text that contains the character at `offset`; None if there is none.
 
-    names: of the file, which are not units after an operator.
+    The unit text begins directly at the number or after "/" or "per". names: of the file, which are not units after an
+    operator.
     """
     for match in _NUMBER.finditer(text, 0, offset + 1):
         begin = match.end()
@@ -351,14 +358,15 @@ def _iterate_proposals(
 def _iterate_listed_units(quantity: _Quantity) -> Iterator[str]:
     """Yield the quantity in units of the list, for each combination of the meanings of its symbols.
 
-    Nothing is yielded without factors or with an invalid power.
+    A factor that may belong to numerator or denominator counts in both ways. At most _MAX_ALTERNATIVES are yielded;
+    nothing without factors or with an invalid power.
     """
     if not quantity.factors or any(factor.power is None for factor in quantity.factors):
         return
     alternatives = [
         [
             (meant, factor.power, k)
-            for k in ((1, -1) if factor.either else (1,))
+            for k in ((1, -1) if factor.is_sign_ambiguous else (1,))
             for meant in _list_unit_meanings(factor.symbol)
         ]
         for factor in quantity.factors

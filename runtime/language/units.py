@@ -95,7 +95,10 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
 
 
 def find_si_unit(dimension: Dimension) -> str:
-    """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number."""
+    """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number.
+
+    Dimensions with a unit of their own have its symbol, such as N.
+    """
     if dimension == DIMENSIONLESS:
         return ""
     if dimension == RATE:

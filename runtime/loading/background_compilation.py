@@ -195,7 +195,8 @@ class SharedObject:
     def fetch_file(self, portable: bool, cache: Cache, background: BackgroundCompilation, renew: bool = False) -> Path:
         """Return the path of the object file, compiled first if the cache lacks it or `renew` is set. Raise BuildError.
 
-        A compilation of it in `background` is awaited and used.
+        If `background` compiles the same texts, its result is awaited and used. portable: for any processor of this
+        architecture.
         """
 
         def compile_object(folder: Path) -> None:

@@ -18,7 +18,7 @@ from gudgeon.loading.cache import Cache, WriteFiles, compute_digest, get_default
 from gudgeon.loading.compiler import start_compiler, wait_for_compiler
 from gudgeon.loading.engine import compute_engine_digest, list_scene_texts
 from gudgeon.loading.library import Library, open_bundled_library, open_library
-from gudgeon.loading.optimized_library import QUICK_KIND, SOURCE, OptimizedLibrary, may_compile_in_background
+from gudgeon.loading.optimized_library import SOURCE, UNOPTIMIZED_KIND, OptimizedLibrary, may_compile_in_background
 from gudgeon.waiting.cancellation import report_work
 from gudgeon.waiting.programs import Programs
 
@@ -71,7 +71,7 @@ def compile_kernels(
         ):
             _build_library(source, folder, portable, background or no_background, cache, rebuild, quick)
 
-    library = _compile_quick_library(source, portable, cache, key, build) if quick and not rebuild else None
+    library = _compile_unoptimized_library(source, portable, cache, key, build) if quick and not rebuild else None
     if library is None:
         entry = cache.fetch("libraries", key, build, renew=rebuild)
         try:
@@ -82,30 +82,31 @@ def compile_kernels(
         return _libraries.setdefault(key, library)
 
 
-def _compile_quick_library(
+def _compile_unoptimized_library(
     source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
 ) -> Library | None:
     """Build an unoptimized library, start another process that builds the optimized one (`key`), and return the first.
 
-    Return None if the optimized library must be awaited. That is so if no process may be started, or if the cache has
-    an unoptimized library already: the other process is then running or has failed.
+    Return None if the optimized library must be awaited: if no process may or can be started, the cache cannot be used,
+    the library cannot be loaded, or the cache has an unoptimized library already. In the last case the other process is
+    running or has failed.
     """
     if not may_compile_in_background(cache) or cache.has_folder("libraries", key):
         return None
     command = compiler.find_compiler()
     flags = (*compiler.build_flags(portable, command, quick=True), *compiler.build_link_flags())
     library_key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
-    if cache.has_folder(QUICK_KIND, library_key):
+    if cache.has_folder(UNOPTIMIZED_KIND, library_key):
         return None
 
-    def build_quick_library(folder: Path) -> None:
-        """Build the quick library in a folder, and store its source for the other process."""
+    def build_unoptimized_library(folder: Path) -> None:
+        """Build the unoptimized library in a folder, and store its source for the other process."""
         build(folder, True)
         for name in source.files:
             (folder / name).unlink()
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    entry = cache.fetch(QUICK_KIND, library_key, build_quick_library)
+    entry = cache.fetch(UNOPTIMIZED_KIND, library_key, build_unoptimized_library)
     if not entry.is_relative_to(cache.root):
         return None
     optimized_library = OptimizedLibrary(

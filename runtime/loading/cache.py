@@ -75,7 +75,7 @@ class Cache:
         """Return whether a complete entry exists."""
         try:
             self._check_trusted(kind)
-            return is_complete(self.root / kind / key)
+            return is_entry_complete(self.root / kind / key)
         except (OSError, UntrustedPathError):
             return False
 
@@ -197,13 +197,13 @@ _issued_warnings: set[str] = set()  # warnings that were issued
 def _is_usable(entry: Path) -> bool:
     """Return whether a cache entry is complete; warn, and return False, if another user may have written it."""
     try:
-        return is_complete(entry)
+        return is_entry_complete(entry)
     except UntrustedPathError as error:
         warn_once(f"an entry of the cache is not used, since {error}; it is created again")
         return False
 
 
-def is_complete(entry: Path) -> bool:
+def is_entry_complete(entry: Path) -> bool:
     """Return whether a cache entry is complete: every listed file has the bytes stored under its kind and key.
 
     Raises UntrustedPathError if another user may have written it.

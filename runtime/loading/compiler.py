@@ -195,8 +195,9 @@ def _describe_machine() -> tuple[str, ...]:
 
 @remember
 def describe_cpu() -> str:
-    """Return model and instruction sets of this machine's CPU as text, for keys of libraries that are not portable;
-    cached.
+    """Return model and instruction sets of this machine's CPU as text, for keys of libraries that are not portable.
+
+    The text is cached. On Linux it has lines of /proc/cpuinfo of the first core, on macOS the name of the processor.
     """
     if sys.platform == "darwin":
         import subprocess

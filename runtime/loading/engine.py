@@ -84,9 +84,9 @@ def _parse_sizes(header: str) -> dict[str, int]:
 
 
 def _select_lines(text: str, values: dict[str, int]) -> str:
-    """Return the lines of a header whose `#if NAME && !NAME` conditions hold for `values`; conditions are not nested.
+    """Return the lines of a header whose conditions `#if NAME && !NAME` hold for `values`, without preprocessor lines.
 
-    Preprocessor lines are left out.
+    Conditions are not nested and have no #else. `values`: number of each name, 0 for false.
     """
     selected, is_active = [], True
     for line in text.splitlines():
@@ -101,7 +101,10 @@ def _select_lines(text: str, values: dict[str, int]) -> str:
 
 
 def read_files(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
-    """Yield (path relative to `folder`, bytes) of all files below it with these suffixes, sorted by path parts."""
+    """Yield (path relative to `folder`, bytes) of all files below it with these suffixes, sorted by path parts.
+
+    Folders named __pycache__ are skipped.
+    """
     entries_by_parts, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
     while left:
         parts, entry_path = left.pop()

@@ -53,7 +53,10 @@ def _remove_other_files(folder: Path, kept_paths: Collection[str]) -> None:
 
 
 def read_scene(folder: Path, scene: str) -> KernelSource | None:
-    """Return the kernel source of a scene that `write_scenes` wrote; None if it is absent or cannot be read."""
+    """Return the kernel source of a scene that `write_scenes` wrote; None if it is absent or cannot be read.
+
+    Texts come from the archive of the folder or from files in it. A source that another version wrote cannot be read.
+    """
     archive = read_archive(folder)
     try:
         stored, packed = archive["scenes"][scene], archive["texts"]

@@ -121,7 +121,12 @@ def find_kernel_source(
     origin = "cache"
 
     def write_source(folder: Path) -> None:  # the derivation finds the tables and laws of the file
-        """Write the kernel source into a folder, committed or newly derived; set `origin` to its kind."""
+        """Write the kernel source (JSON) into a folder; set `origin` to "generated" (committed files) or "derived".
+
+        The committed source is used without overrides, `regenerate` and another formulation, if the file is unchanged.
+        Overrides that do not change the structure reuse the source without them and its origin. Any other source is
+        derived.
+        """
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):

@@ -161,7 +161,10 @@ def format_platform(system: str, machine: str) -> str:
 
 
 def compute_library_file_name(source: KernelSource) -> str:
-    """Return the name of a bundled library: a digest of everything that it is compiled from."""
+    """Return the name of a bundled library: 32 characters of a digest of its sources, and ".so".
+
+    Sources are the texts of scene and engine and the declarations `cdef`; compiler and flags do not count.
+    """
     return (
         compute_digest(["carried/1", source.main, source.cdef, compute_engine_digest(), *list_scene_texts(source)])[:32]
         + ".so"

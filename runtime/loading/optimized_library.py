@@ -22,14 +22,14 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.files.trust import UntrustedPathError
-from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_complete
+from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_entry_complete
 from gudgeon.loading.library import Functions, Library
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
     import subprocess
 
-QUICK_KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
+UNOPTIMIZED_KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
 SOURCE = "source.json"
 # program of the other process
 PROGRAM = (
@@ -67,11 +67,15 @@ class OptimizedLibrary:
         self._process: subprocess.Popen[bytes] | None = None
         self._owner, self._lock = os.getpid(), Lock()
 
-    def start_process(self, quick_entry: Path, portable: bool) -> bool:
-        """Start the other process, which reads the cache entry `quick_entry`; return False if it cannot be started."""
+    def start_process(self, unoptimized_entry: Path, portable: bool) -> bool:
+        """Start the other process, which builds the optimized library; return False if it cannot be started.
+
+        It reads the kernel source from the cache entry `unoptimized_entry`, without output and in a session of its own.
+        portable: for any processor of this architecture.
+        """
         import subprocess
 
-        request = json.dumps([str(self._cache.root), str(quick_entry), portable])
+        request = json.dumps([str(self._cache.root), str(unoptimized_entry), portable])
         line = [sys.executable, "-c", PROGRAM, request, *sys.path]
         nothing = subprocess.DEVNULL
         with DelayedCtrlC() as ctrl_c, suppress(OSError):
@@ -85,7 +89,8 @@ class OptimizedLibrary:
     def switch_if_library_is_ready(self, functions: Functions) -> bool:
         """Switch `functions` to the optimized library if the cache has it; return whether it is still expected.
 
-        Return False after the switch, and if the process has failed. Return True at once while another thread checks.
+        Return False after the switch, if the process has failed, and if the library cannot be used. Return True at once
+        while another thread checks.
         """
         lock = self._get_lock()
         if not lock.acquire(blocking=False):
@@ -96,7 +101,7 @@ class OptimizedLibrary:
                 return not has_ended
             entry = self._cache.root / "libraries" / self._key
             with suppress(GudgeonError, OSError, UntrustedPathError):  # the next start builds it again and reports
-                if is_complete(entry):
+                if is_entry_complete(entry):
                     self._switch_functions(functions, entry)
             return False
         finally:
@@ -132,9 +137,9 @@ def make_optimized_library(request: str) -> None:
 
     from gudgeon.loading.build import compile_kernels
 
-    root, quick_entry, portable = json.loads(request)
+    root, unoptimized_entry, portable = json.loads(request)
     os.nice(NICENESS)
-    if is_complete(Path(quick_entry)):
-        source = KernelSource.from_json(Path(quick_entry, SOURCE).read_bytes().decode())
+    if is_entry_complete(Path(unoptimized_entry)):
+        source = KernelSource.from_json(Path(unoptimized_entry, SOURCE).read_bytes().decode())
         with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other
             compile_kernels(source, portable=portable, cache=Cache(root))

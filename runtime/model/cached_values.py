@@ -42,7 +42,8 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
     def get_cached_result(owner: Any, *arguments: Any) -> Value:
         """Return the cached result, or call the function and cache its result.
 
-        Nothing is cached for arrays of more than MAX_BYTES; beyond MAX_ENTRIES the oldest results are removed.
+        Arguments are compared by type and value, arrays by shape, type and bytes. Nothing is cached for arrays of more
+        than MAX_BYTES and arguments without a hash; beyond MAX_ENTRIES the oldest results are removed.
         """
         entry: Any = name
         if arguments:

@@ -41,9 +41,9 @@ def find_word_index(value: Any, parameter: RuntimeParameter) -> float:
 
 
 def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
-    """Return (message, hint) for the address of a contact's law or its options, which are compiled.
+    """Return (message, hint) for the address of a contact's law or of an option of a law; ("", "") for others.
 
-    ("", "") for others.
+    Laws and their options select compiled equations, so that a run cannot set them.
     """
     from gudgeon.generator.kinds.laws.law import find_laws_of_role  # imports no SymPy
 

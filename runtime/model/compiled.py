@@ -281,7 +281,7 @@ class CompiledModel:
         self.check_linearization(status, t)
         return J, f_t
 
-    def newton(
+    def solve_newton_system(
         self,
         t: float,
         y: ArrayLike,
@@ -291,10 +291,12 @@ class CompiledModel:
         r: ArrayLike,
         discrete_states: ArrayLike | None = None,
     ) -> Array:
-        """Return u, (2n + 3 + k,), with u/η − J u = r + s f_t: the linear solve of the implicit methods.
+        """Return u, (2n + 3 + k,), with u/η − J u = r + s f_t: the linear system of Newton's method in the implicit
+        methods.
 
-        J and f_t are those of `jacobian` at t, y; eta (s) is the step times the method's coefficient. Raises ValueError
-        for a scene without a Jacobian, SingularError for a singular matrix.
+        J and f_t are those of `jacobian` at t, y; eta (s) is the step times the method's coefficient, s (s) the factor
+        of f_t, r the right-hand side (2n + 3 + k,). Raises ValueError for a scene without a Jacobian, SingularError for
+        a singular matrix.
         """
         if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
@@ -368,8 +370,9 @@ class CompiledModel:
     ) -> None:
         """Raise SingularError for a status k > 0, with the constraint equation of the pivot; return for other values.
 
-        `pivot_names`: names to which k refers, those of the source by default. `p`: parameter values, to name masses
-        whose ratio is too large. `p` None: no ratio of masses is tested.
+        `pivot_names`: names to which k refers, those of the source by default; the pivot of a coordinate is reported as
+        too small. `p`: parameter values, to name masses whose ratio is too large. `p` None: no ratio of masses is
+        tested.
         """
         if status > 0:
             row = (pivot_names or self.source.pivots)[status - 1]

@@ -67,9 +67,12 @@ def evaluate_scene_step(compiled: CompiledModel, p: Array, duration: float) -> f
 
 
 def estimate_default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
-    """Return the largest step (s) that all three time scales allow: of the motion, of films and of dry contacts.
+    """Return the largest step (s) for rk4 that all three time scales allow: of the motion, of films and of dry
+    contacts.
 
-    t_end: length of the run (s). The step is at most 1e-3 s.
+    The bounds are 1e-3 s, MAX_STEP_FRACTION of t_end (s), MAX_STEP_TIMES_FILM_RATE over the damping rates of films and
+    dampers, and MAX_CONTACT_FRACTION of the contact times. Contact times are those of Hertz's law at
+    ASSUMED_IMPACT_SPEED, or of a linear spring. Rates and times use the effective mass of both bodies of a joint.
     """
     bounds = [MAX_STEP_FRACTION * t_end, 1e-3]
     mass = compute_norm_weights(compiled.source, p, compiled.mass(p))

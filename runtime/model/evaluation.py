@@ -121,19 +121,20 @@ def evaluate_runs(
     t: Array,
     q: Array,
     v: Array,
-    memory: Array,
+    discrete_states: Array,
     p: Array,
     field_names: Collection[str],
 ) -> Evaluation:
     """Return the quantities at few samples of several runs: sample_counts[i] samples of run i with values p[i].
 
-    The samples of the runs follow each other: t (N,), q and v (N, n), memory (N, n_memory), N = sum(sample_counts).
-    `field_names`: the requested fields. Raises ArrayError, SingularError.
+    The samples of the runs follow each other: t (N,), q and v (N, n), discrete_states (N, n_memory), N =
+    sum(sample_counts). With `mod` in drives the times are shifted by rounding, to the side after a jump. `field_names`:
+    the requested fields. Raises ArrayError, SingularError.
     """
     N, time = sum(sample_counts), t + find_rounding_distance(t) if compiled.has_mod_in_drives else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
-    input_pointers.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
+    input_pointers.append(compiled.pointer(as_c_array(discrete_states, "memory", (N, compiled.n_memory))))
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
     (evaluation, outputs), failed_index = (
         allocate_evaluation(compiled, N, field_names),
@@ -240,7 +241,7 @@ def allocate_evaluation(
 
 
 def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ...], int], ...]:
-    """Return all fields of an Evaluation in their order: name, shape of a sample, and numbers per sample."""
+    """Return all fields of an Evaluation in their order: name, shape of a sample, and number of doubles per sample."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,),
@@ -261,7 +262,8 @@ def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ..
 def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) -> None:
     """Set forces in an Evaluation to NaN, in place, if redundant constraints do not determine them.
 
-    If masses are missing, all forces, energies and powers become NaN.
+    They are the multipliers, reactions and torques of the joints and drives in source.indeterminate. If masses are
+    missing, all forces, energies and powers become NaN.
     """
     s = compiled.source
     for field_values in (
@@ -313,7 +315,8 @@ def check_sample_memory(
     """Raise MemoryError if the samples of `n_runs` runs do not fit into memory.
 
     n_samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
-    The states then exist for `max_concurrent_runs` runs at a time, with the `field_names` that the series need.
+    The states then exist for `max_concurrent_runs` runs at a time, with the `field_names` that the series need. A
+    single run below MIN_CHECKED_BYTES is not checked.
     """
     if n_runs == 1 and stored_series is None and n_samples * compiled.sample_bytes < MIN_CHECKED_BYTES:
         return

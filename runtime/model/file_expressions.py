@@ -56,7 +56,8 @@ REMEDY = "expected finite numbers: is there a division by zero, or a root of a n
 def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
     """Return a function from names to values at a state: t, parameters, coordinates and velocities (SI).
 
-    q, v: (n,). The function accepts the names of expressions in a file, such as "L1.head.vx" and "ground.O.x".
+    q, v: (n,). The function accepts the names of expressions in a file, such as "L1.head.vx" and "ground.O.x"; it
+    raises KeyError for others. Positions and velocities of points follow from those of their body.
     """
     index_of_coordinate = {name: k for k, name in enumerate(source.coordinates)}
     parameter_values = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
@@ -64,7 +65,11 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
     offset_of_component = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
 
     def evaluate_name(path: str) -> float:
-        """Return the value of a name at the state. Raises KeyError for an unknown name."""
+        """Return the value of a name at the state. Raises KeyError for an unknown name.
+
+        A point on a body has position and velocity from the body's coordinates and its arm; a point on the ground is
+        constant.
+        """
         if path == "t":
             return t
         for address in (f"parameters.{path}", path):  # path: "ground.O.x"
@@ -222,7 +227,8 @@ def _explain_undefined_branch(
 def explain_undefined_value_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
     """Return why a drive ceases to be a number between t0 and t1 (s), and when; ("", t1) if none does.
 
-    The time is located by bisection between samples; of several drives the earliest is returned.
+    Each drive is sampled at 4001 times and just after t1; the time is located by bisection. Of several drives the
+    earliest is returned.
     """
     empty, first_time, message = np.zeros(0), t1, ""
     for info, tree in read_expression_trees(source, ("drives",)):
@@ -308,7 +314,10 @@ def _find_path_to_nonfinite_part(tree: Expr, values: Values) -> list[Expr]:
 
 
 def _find_active_parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
-    """Return the parts on which a value depends; of a where, the compared values and the active branch."""
+    """Return the operands or arguments on which the value of an expression depends; () for a number or a name.
+
+    Of a `where` they are the two compared values and the active branch.
+    """
     match tree:
         case Unary(operand=operand):
             return (operand,)
@@ -322,7 +331,10 @@ def _find_active_parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
 
 
 def _describe_part(tree: Expr, values: Values) -> str:
-    """Return a description of an expression with the values of its parts: "1 divided by 0"."""
+    """Return a description of an undefined operation with the values of its operands: "1 divided by 0".
+
+    A function gives "f of 1, 2", a power "the power 0.5 of -1", a curve the range that the argument leaves.
+    """
     part_values = [float(evaluate(part, values)) for part in _find_active_parts(tree, values)]
     texts = [f"{number:.12g}" for number in part_values]
     match tree:
@@ -340,7 +352,11 @@ def _describe_part(tree: Expr, values: Values) -> str:
 
 
 def find_unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
-    """Return the drive whose second rate at t (s) is over 100 times that nearby, and thus unbounded; "" if none is."""
+    """Return the drive whose second rate at t (s) is over 100 times that nearby, and thus unbounded; "" if none is.
+
+    The second rates at t and at the next doubles are compared with those at t (1 ± 1e-4). NaN counts as infinite at t.
+    Of several drives the one with the largest rate is returned.
+    """
     zero = np.zeros(compiled.n)
     distance = 1e-4 * max(abs(t), 1e-9)
     times_t = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
@@ -353,13 +369,15 @@ def find_unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
     return rows[max(drives, key=lambda k: at_t[k])].owner if drives else ""
 
 
-def find_steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
+def find_force_with_unbounded_slope(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
     """Return which force has an unbounded slope by a name of motion or t, or is not a number; "" if none has."""
     values, addresses = make_value_function(source, p, t, q, v), {parameter.address for parameter in source.slots}
     for info, tree in read_expression_trees(source, ("forces",)):
         for path in sorted({name.path for name in iterate_names(tree)}):
             value = float(values(path))
-            if f"parameters.{path}" not in addresses and _is_steep(_make_function_of_name(tree, path, values), value):
+            if f"parameters.{path}" not in addresses and _has_unbounded_slope(
+                _make_function_of_name(tree, path, values), value
+            ):
                 location = f"{info.address} (line {info.line}, column {info.column})"
                 argument_text = "" if path == "t" else f", {path} = {value:.9g}"
                 return f"the slope of {location} by {path} is not finite at t = {t:.9g} s{argument_text}"
@@ -371,10 +389,11 @@ def _make_function_of_name(tree: Expr, path: str, values: Values) -> Callable[[f
     return lambda x: float(evaluate(tree, lambda name: x if name == path else values(name)))
 
 
-def _is_steep(function: Callable[[float], float], point: float) -> bool:
+def _has_unbounded_slope(function: Callable[[float], float], point: float) -> bool:
     """Return whether a function is finite at a point, but its slope is not.
 
-    Slopes are measured over shorter and shorter distances on both sides. A jump does not count.
+    Slopes are measured over shorter and shorter distances on both sides and must grow by _MIN_SLOPE_GROWTH each time. A
+    jump does not count. True is returned also if the function is not finite next to the point.
     """
     value, size = function(point), 1.0 + abs(point)
     for signed_size in (-size, size):
@@ -392,12 +411,13 @@ def _is_steep(function: Callable[[float], float], point: float) -> bool:
 
 @dataclass(frozen=True)
 class PartialExpression:
-    """Hold an expression that may be undefined; `slot`: index of the parameter that it defines (−1: none)."""
+    """Hold an expression that may be undefined; `parameter_index`: of the parameter that it
+    defines, −1: none; `indices_by_name`: of the parameters in it."""
 
     address: str
     tree: Expr
-    slot: int
-    slots: Mapping[str, int]
+    parameter_index: int
+    indices_by_name: Mapping[str, int]
 
 
 def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
@@ -407,9 +427,13 @@ def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.gen
     """
     has_undefined = np.zeros(len(p), dtype=np.bool_)
     for partial in _find_affected_expressions(source, p):
-        values_by_name = {name: p[:, k] for name, k in partial.slots.items()}
+        values_by_name = {name: p[:, k] for name, k in partial.indices_by_name.items()}
         undefined = find_possibly_undefined_cases(partial.tree, values_by_name)
-        has_undefined |= undefined & ~is_given[:, partial.slot].astype(bool) if partial.slot >= 0 else undefined
+        has_undefined |= (
+            undefined & ~is_given[:, partial.parameter_index].astype(bool)
+            if partial.parameter_index >= 0
+            else undefined
+        )
     return has_undefined
 
 
@@ -419,8 +443,8 @@ def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[
     p: (n_p,). Expressions of parameters that are given, by the mask is_given (n_parameters,), are skipped.
     """
     for partial in _find_affected_expressions(source, p[np.newaxis]):
-        values_by_name = {name: float(p[k]) for name, k in partial.slots.items()}
-        if partial.slot >= 0 and is_given[partial.slot]:
+        values_by_name = {name: float(p[k]) for name, k in partial.indices_by_name.items()}
+        if partial.parameter_index >= 0 and is_given[partial.parameter_index]:
             continue
         if (undefined_part := find_undefined_part(partial.tree, values_by_name)) is not None:
             values_text = ", ".join(f"{name} = {number:.6g}" for name, number in values_by_name.items())
@@ -429,19 +453,26 @@ def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[
 
 
 def _find_affected_expressions(source: KernelSource, p: Array) -> list[PartialExpression]:
-    """Return the expressions with a parameter that differs from the file's in a run of p (n, n_p); cache its index."""
+    """Return the partial expressions with a parameter that differs from the file's value in at least one run.
+
+    p: parameter values (n_runs, n_p). Indices and defaults of the parameters are cached in the source.
+    """
     cache = vars(source)
-    if "partial_slots" not in cache:
-        slot_indices = sorted({k for partial in find_partial_expressions(source) for k in partial.slots.values()})
-        cache["partial_slots"] = slot_indices
-        cache["partial_defaults"] = np.array([source.slots[k].default for k in slot_indices])
-    slot_indices = cache["partial_slots"]
-    is_changed = (p[:, slot_indices] != cache["partial_defaults"]).any(axis=0)
+    if "partial_indices" not in cache:
+        parameter_indices = sorted(
+            {k for partial in find_partial_expressions(source) for k in partial.indices_by_name.values()}
+        )
+        cache["partial_indices"] = parameter_indices
+        cache["partial_defaults"] = np.array([source.slots[k].default for k in parameter_indices])
+    parameter_indices = cache["partial_indices"]
+    is_changed = (p[:, parameter_indices] != cache["partial_defaults"]).any(axis=0)
     if not is_changed.any():
         return []
-    changed_slots = {slot_indices[k] for k in np.flatnonzero(is_changed).tolist()}
+    changed_indices = {parameter_indices[k] for k in np.flatnonzero(is_changed).tolist()}
     return [
-        partial for partial in find_partial_expressions(source) if not changed_slots.isdisjoint(partial.slots.values())
+        partial
+        for partial in find_partial_expressions(source)
+        if not changed_indices.isdisjoint(partial.indices_by_name.values())
     ]
 
 
@@ -461,7 +492,7 @@ def _read_partial_expressions(source: KernelSource) -> list[PartialExpression]:
     for address, tree, k in [*trees, *((info.address, info.tree, -1) for info in source.written)]:
         expr = from_json(json.loads(tree))
         paths = dict.fromkeys(name.path for name in iterate_names(expr))
-        slots = {name: parameter_index.get(f"parameters.{name}", parameter_index.get(name, -1)) for name in paths}
+        indices = {name: parameter_index.get(f"parameters.{name}", parameter_index.get(name, -1)) for name in paths}
         if not is_total_expression(expr):
-            result.append(PartialExpression(address, expr, k, {name: i for name, i in slots.items() if i >= 0}))
+            result.append(PartialExpression(address, expr, k, {name: i for name, i in indices.items() if i >= 0}))
     return result

@@ -43,8 +43,8 @@ def find_evaluation_times(
 ) -> Array:
     """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
 
-    It is if the accelerations of drives jump at t[-1] and their rates do not. `start_time` (s): the begin of the run,
-    for a single sample after it. q, v: (N, n).
+    That is so if the accelerations of drives jump at t[-1] and their rates do not: the last sample then has the
+    accelerations before the jump. `start_time` (s): the begin of the run, for a single sample after it. q, v: (N, n).
     """
     previous_time = float(t[-2]) if len(t) > 1 else start_time
     if not len(t) or not previous_time < t[-1] or not compiled.may_drive_acceleration_jump:

@@ -43,20 +43,28 @@ class ParameterColumns:
         self._given = np.stack([values, values])  # rows: of the run, and of its motion
         self._is_given = np.stack([is_given, is_given]).astype(FLAG)
         self._given[1, gains], self._is_given[1, gains] = 0.0, 1
-        n_slots = len(source.slots)
-        every_slot = [_find_slots(source, name) for name in names]
+        n_parameters = len(source.slots)
+        indices_by_column = [_find_indices_of_name(source, name) for name in names]
         # where the value of each column is written, as offsets from the first value given
-        self._offsets = [[*slots, *(n_slots + k for k in slots if k not in gains)] for slots in every_slot]
-        self._has_choices = any(slot.words and mask for slot, mask in zip(source.slots, is_given, strict=True))
+        self._offsets = [
+            [*indices, *(n_parameters + k for k in indices if k not in gains)] for indices in indices_by_column
+        ]
+        self._has_choices = any(
+            parameter.words and mask for parameter, mask in zip(source.slots, is_given, strict=True)
+        )
         self.p = np.tile(compiled.prepare(values, is_fixed), (n_rows, 1))
         self.p_motion = self.p.copy() if gains else self.p
         self._given_pointer, self._pointers = compiled.pointer(self._given, is_written=True), self._make_pointers()
         *self._limits, self._relations = collect_conditions(source)
         self._has_partial_expressions = bool(find_partial_expressions(source))
-        self.size_slots = find_length_indices(source)
+        self.length_indices = find_length_indices(source)
 
     def _make_pointers(self) -> list[tuple[tuple[Any, Any, Any], ...]]:
-        """Return the pointers passed to gudgeon_prepare for each row: of `p` and, if it differs, of `p_motion`."""
+        """Return for each row k the arguments of gudgeon_prepare: pointers to given values, mask and row k of `p`.
+
+        If `p_motion`, the parameters of the motion without Baumgarte gains, differs from `p`, those of `p_motion`
+        follow.
+        """
         pointer, n_sets = self.compiled.pointer, 1 if self.p_motion is self.p else 2
         inputs = [(pointer(self._given[i]), pointer(self._is_given[i], "unsigned char *")) for i in range(n_sets)]
         arrays = (self.p, self.p_motion)[:n_sets]
@@ -68,8 +76,9 @@ class ParameterColumns:
     def compute_row(self, x: Array, k: int) -> bool:
         """Compute row k of `p` and `p_motion` from x (n_names,), and return whether the values are valid.
 
-        NaN, infinite and subnormal values are invalid; the row is then not computed. Other values are valid if
-        `parameters.check_parameter_values` accepts them; unresolved clearances are not tested here.
+        Parameters without a column keep the values fixed at the construction. NaN, infinite and subnormal values are
+        invalid; the row is then not computed. Other values are valid if `parameters.check_parameter_values` accepts
+        them; unresolved clearances are not tested here.
         """
         given = self._given_pointer
         for value, offsets in zip(x.tolist(), self._offsets, strict=True):
@@ -117,7 +126,7 @@ def check_parameter_names(names: Any, fixed: Any) -> tuple[tuple[str, ...], dict
     return checked, constants
 
 
-def _find_slots(source: KernelSource, name: str) -> list[int]:
+def _find_indices_of_name(source: KernelSource, name: str) -> list[int]:
     """Return the indices of the parameters that a name sets: one, or those of a group such as `gains`.
 
     Raises UnknownNameError, and BadValueError for a choice, which has no number.

@@ -173,7 +173,8 @@ def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -
 def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float | None:
     """Return the numbers of a column, including NaN; None if they must be read one by one.
 
-    They must be for other types than floats and for subnormal numbers. A column with one value gives one float.
+    That is so for other types than floats, for subnormal numbers, and for a constant that is not valid, whose error is
+    then reported. A column with one value for all runs gives one float.
     """
     if isinstance(column, ConstantColumn):
         try:

@@ -70,7 +70,7 @@ def spread_lengths(source: KernelSource, lengths: Array) -> Array:
 
 
 def compute_size(source: KernelSource, p: Array) -> float:
-    """Return the size (m) of the mechanism with the parameter values p (n_slots + n_derived,) of one run."""
+    """Return the size (m) of the mechanism with the parameter values p (n_parameters + n_derived,) of one run."""
     return _measure_lengths(source, select_lengths(source, p))[0]
 
 
@@ -145,7 +145,10 @@ def find_unresolved_clearances(source: KernelSource, p: Array) -> Array:
 
 
 def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
-    """Return a message on the first clearance too small for doubles in one run; "" if there is none. p: (n_p,)."""
+    """Return a message on the first clearance too small for doubles in one run; "" if there is none. p: (n_p,).
+
+    The limit is MIN_RELATIVE_CLEARANCE of the mechanism's size. With a contour, the smallest depth is added.
+    """
     for joint, is_unresolved in zip(source.clearances, find_unresolved_clearances(source, p).tolist(), strict=True):
         if is_unresolved:
             size, depths = compute_size(source, p), find_contour(source, p, joint.name)

@@ -308,7 +308,7 @@ class Batch:
 def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
     """Return the values (n,) of the parameters that any run was given, by address; choices as names.
 
-    `p` (n, n_slots + n_derived) has the parameters of all runs, `is_given` (n, n_slots) which of them were given.
+    `p` (n, n_parameters + n_derived): parameters of all runs; `is_given` (n, n_parameters): mask of those given.
     """
     given_parameters = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
     return {parameter.address: format_values_of_runs(parameter, values) for parameter, values in given_parameters}
@@ -411,8 +411,8 @@ def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
 def _find_stored_series(batch: Batch, name: str) -> Array | None:
     """Return a stored series (n, N), or a copy of a column of the stored q, v, work or state.
 
-    Contact states are NaN after the last sample of a run. Returns None for any other series, and for "t" in a batch
-    with states.
+    Stored series are those that `simulate_many` kept (batch.kept). Contact states are NaN after the last sample of a
+    run. Returns None for any other series, and for "t" in a batch with states.
     """
     if name in batch.kept:
         return batch.kept[name]

@@ -96,8 +96,10 @@ def compute_penetrations(run: Result) -> Array:
 def check_contact_samples(run: Result, run_with_peaks: Result | None = None) -> ContactCheck:
     """Compare the samples of a run with its list of contacts and return a ContactCheck with the faults, by time.
 
-    `run_with_peaks` is the run whose diagnostics have the peaks over all steps; None: the same run. Joints without dry
-    contact are skipped. Forces are checked only with a compiled library and in joints without a film.
+    Kinds of faults: "penetration" or "force" outside of the listed contacts, "pull" (a rigid contact that attracts),
+    and "peak" (a peak of the force that no listed contact has). `run_with_peaks` is the run whose diagnostics have the
+    peaks over all steps; None: the same run. Joints without dry contact are skipped. Forces are checked only with a
+    compiled library and in joints without a film.
     """
     faults: list[Fault] = []
     penetration = compute_penetrations(run)

@@ -55,9 +55,9 @@ class Result(NotebookDisplay):
 
     compiled: CompiledModel | None  # None: read from a file, where every series is stored
     source: KernelSource
-    p: Array  # (n_slots + n_derived,)
-    given: Array  # (n_slots,) values of the parameters that were overridden
-    is_given: Array  # (n_slots,) bool, whether a parameter was overridden
+    p: Array  # (n_parameters + n_derived,)
+    given: Array  # (n_parameters,) values of the parameters that were overridden
+    is_given: Array  # (n_parameters,) bool, whether a parameter was overridden
     t: Array  # (N,) s
     q: Array  # (N, n)
     v: Array
@@ -441,13 +441,13 @@ def make_evaluated_samples(
 
     It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene without masses.
     """
-    n_slots = len(source.slots)
+    n_parameters = len(source.slots)
     return EvaluatedSamples(
         compiled=compiled,
         source=source,
         p=p,
-        given=np.zeros(n_slots),
-        is_given=np.zeros(n_slots, bool),
+        given=np.zeros(n_parameters),
+        is_given=np.zeros(n_parameters, bool),
         t=t,
         q=q,
         v=v,

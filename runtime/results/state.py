@@ -48,7 +48,7 @@ def make_state(
 ) -> State:
     """Return the state of a scene at time t (s), with copies of its arrays and the parameters that the run was given.
 
-    `given`, `is_given` (n_slots,): values and mask of these parameters. Other arrays as in State.
+    `given`, `is_given` (n_parameters,): values and mask of these parameters. Other arrays as in State.
     """
     given_slots = zip(source.slots, given, is_given, strict=True)
     parameters = {slot.address: format_parameter(slot, float(x)) for slot, x, mask in given_slots if mask}

@@ -101,8 +101,8 @@ def evaluate_end_time(source: KernelSource, t_end: float | str | None, p: Array)
     if not has_names(insert_space_before_unit(t_end)):
         return t_end
     values_by_name = {
-        slot.address.removeprefix("parameters."): (float(number), slot.dimension)
-        for slot, number in zip(source.slots, p, strict=False)
+        parameter.address.removeprefix("parameters."): (float(number), parameter.dimension)
+        for parameter, number in zip(source.slots, p, strict=False)
     }
     return evaluate_expression(insert_space_before_unit(t_end), "t_end", (0, 0, 1), values_by_name)
 

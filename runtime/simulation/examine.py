@@ -336,8 +336,12 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
     if ideal is None or run.source.massless or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
-        addresses = {slot.address for slot in ideal.source.slots}
-        values = {slot.address: run.parameters[slot.address] for slot in run.source.slots if slot.address in addresses}
+        addresses = {parameter.address for parameter in ideal.source.slots}
+        values = {
+            parameter.address: run.parameters[parameter.address]
+            for parameter in run.source.slots
+            if parameter.address in addresses
+        }
         try:
             ideal = ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
         except GudgeonError as error:

@@ -41,7 +41,7 @@ class DifferenceNorm:
     """Measure differences between states of one run in dimensionless form, with scales taken from that run."""
 
     compiled: CompiledModel
-    p: Array  # (n_slots + n_derived,)
+    p: Array  # (n_parameters + n_derived,)
     scales: Array  # (2n,) scales of q and q̇: differences that count as 1
     size: float  # m, of the mechanism
     crossing_time: float  # s, time in which the motion crosses the mechanism's size

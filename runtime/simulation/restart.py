@@ -202,7 +202,7 @@ def merge_parameters(
     parameters: Mapping[str, Any] | None,
     contour: Mapping[str, Array] = MappingProxyType({}),
 ) -> tuple[Array, Array, tuple[str, ...]]:
-    """Return values and mask (n_slots,) of the run-time parameters given by state, arguments and contours, and notes.
+    """Return values and mask (n_parameters,) of the parameters given by state, arguments and contours, and notes.
 
     Parameters of the state hold unless `parameters` or `contour` set them again; a note then lists those that changed.
     Notes on choices are returned too.
@@ -317,6 +317,8 @@ def _format_violated_equations(
     return f"{', '.join(violated[:MAX_REPORTED])}{more}" if violated else ""
 
 
-def _format_value(value: float, slot: RuntimeParameter) -> str:
+def _format_value(value: float, parameter: RuntimeParameter) -> str:
     """Return a parameter value as text with its unit, or the word that it represents for a choice."""
-    return str(format_parameter(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()
+    return (
+        str(format_parameter(parameter, float(value))) if parameter.words else f"{value:.6g} {parameter.unit}".strip()
+    )

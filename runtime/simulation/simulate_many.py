@@ -192,7 +192,7 @@ class _BatchOptions:
 
 
 class _Starts:
-    """Hold the parameter values (n_runs, n_slots), start states and notes of all runs.
+    """Hold the parameter values (n_runs, n_parameters), start states and notes of all runs.
 
     `failures`: errors of runs with invalid parameters, by index. Without states, runs begin at t = 0.
     """
@@ -231,7 +231,7 @@ class _Starts:
         self.given, self.is_given = uniform_values or read_each_run(rows, self._merge_parameters)
 
     def _merge_parameters(self, i: int, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
-        """Return values and mask (n_slots,) of the parameters given for run i, and append its notes to `remarks`.
+        """Return values and mask (n_parameters,) of the parameters given for run i, and append its notes to `remarks`.
 
         Values of its start state and of its contour are included.
         """

@@ -201,7 +201,7 @@ class ComparedScene:
             math.inf,
             method=method,
             rtol=self.rtol,
-            p_free=prepare_without_baumgarte(self.compiled, given, is_given),
+            p_motion=prepare_without_baumgarte(self.compiled, given, is_given),
             stop=False,
         )
 

@@ -57,7 +57,12 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "derived": source.derived,
         "conditions": [[item.address, item.relation, item.bound, item.message] for item in list_conditions(source)],
         "partials": [
-            {"address": item.address, "tree": to_json(item.tree), "slot": item.slot, "slots": dict(item.slots)}
+            {
+                "address": item.address,
+                "tree": to_json(item.tree),
+                "slot": item.parameter_index,
+                "slots": dict(item.indices_by_name),
+            }
             for item in find_partial_expressions(source)
         ],
         "divides": sorted(DIVIDING),

@@ -104,7 +104,11 @@ def test_a_guessed_point_picks_the_assembly(side: float, tmp_path: Path) -> None
 )
 def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tuple[str, ...]) -> None:
     scene = found(four_bar(joints, drives)).scenes["ideal"]
-    assert (scene.closed_mobility.freedoms, scene.closed_mobility.along, scene.closed_mobility.loose) == (
+    assert (
+        scene.closed_mobility.freedoms,
+        scene.closed_mobility.independent_coordinates,
+        scene.closed_mobility.unconnected_bodies,
+    ) == (
         freedoms,
         along,
         (),
@@ -123,7 +127,7 @@ def test_a_driven_crank_without_its_shaft_is_named() -> None:
 
 def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:
     loose = found(four_bar(C + D, "")).scenes["ideal"].closed_mobility
-    assert loose.loose == ("crank",) and loose.freedoms == 5
+    assert loose.unconnected_bodies == ("crank",) and loose.freedoms == 5
     twice = found(four_bar(A + A.replace("A:", "A2:") + B + C + D)).scenes["ideal"].closed_mobility
     assert (twice.gruebler, twice.freedoms, twice.redundant) == (-2, 0, 2)
 
@@ -142,7 +146,7 @@ start: {{guess: {{a.theta: {guess} deg, b.theta: {-guess / 2} deg}}}}
     mechanism = read_mechanism(flat.encode(), "flat.yaml")
     scenes = assemble_scenes(mechanism, False)
     closed = scenes.scenes["ideal"].closed_mobility
-    assert (closed.aligned, closed.freedoms, closed.redundant) == (aligned, 0, 0)
+    assert (closed.n_dependent_at_start, closed.freedoms, closed.redundant) == (aligned, 0, 0)
     assert [whose for whose, _ in yield_remarks(mechanism, scenes)].count("singular") == aligned
 
 

@@ -173,9 +173,9 @@ def test_what_may_move_is_told_by_arrows_along_it() -> None:
     linkage, configuration = found.linkage, found.configuration
     motions = compute_free_motions(linkage, linkage.p, configuration.q)
     mobility = find_mobility(linkage, linkage.p, configuration.q)
-    assert motions.shape[1] == mobility.freedoms == 5 and mobility.loose == ("stray",)
+    assert motions.shape[1] == mobility.freedoms == 5 and mobility.unconnected_bodies == ("stray",)
     assert np.abs(linkage.closed_phi_q(0.0, configuration.q, linkage.p) @ motions).max() < 1e-12
-    shapes, labels = draw_free_motions(found.problem, configuration, 1e-3, mobility.loose)
+    shapes, labels = draw_free_motions(found.problem, configuration, 1e-3, mobility.unconnected_bodies)
     heads = {part: [s for s in shapes if s.part == part and s.role == "free head"] for part in {s.part for s in shapes}}
     assert {part: len(found) for part, found in heads.items()} == {"free coupler": 2, "free stray": 5, "free block": 2}
     assert [label.part for label in labels] == ["free stray"]
@@ -184,7 +184,7 @@ def test_what_may_move_is_told_by_arrows_along_it() -> None:
         span = tips[0] - tips[1]
         assert abs(span @ [-np.sin(along), np.cos(along)]) < 1e-12 * float(np.hypot(*span)) + 1e-15
     sketch = make_sketch(
-        configuration, shapes_on_top=shapes, labels=labels, unconnected_bodies=frozenset(mobility.loose)
+        configuration, shapes_on_top=shapes, labels=labels, unconnected_bodies=frozenset(mobility.unconnected_bodies)
     )
     assert {s.role for s in sketch.of("body stray")} == {"loose"} and {s.role for s in sketch.of("body crank")} == {
         "body"

@@ -141,11 +141,11 @@ def compile_nowhere(room: Path) -> Act:
 
 def compiled(folder: Path, k: int) -> None:
     from gudgeon.loading import build
-    from gudgeon.loading.cache import Cache, is_complete
+    from gudgeon.loading.cache import Cache, is_entry_complete
 
     (folder / "tmp").mkdir(exist_ok=True)
     assert build.compile_kernels(tiny(3 + k), cache=Cache(folder / "cache")).lib.scale(1.0) == 3.0 + k
-    assert all(is_complete(entry) for entry in folder.glob("cache/libraries/*"))
+    assert all(is_entry_complete(entry) for entry in folder.glob("cache/libraries/*"))
 
 
 def report_errors(act: Callable[[], object]) -> None:

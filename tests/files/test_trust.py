@@ -17,7 +17,7 @@ import pytest
 from gudgeon.errors import CacheError
 from gudgeon.files import trust
 from gudgeon.files.trust import UntrustedPathError, check_trusted_path
-from gudgeon.loading.cache import CHECKSUM_FILE, Cache, get_private_cache, is_complete
+from gudgeon.loading.cache import CHECKSUM_FILE, Cache, get_private_cache, is_entry_complete
 from tests.loading.test_cache import Writer
 
 OTHER = 54321  # a user who is neither we nor root
@@ -71,7 +71,7 @@ def test_what_others_may_write_is_not_used(root: Path, give: Callable[[Path], No
     (root / "models" / "one" / "text").write_bytes(b"evil")
     sums = root / "models" / "one" / CHECKSUM_FILE
     sums.write_text(f"{hashlib.sha256(b'evil').hexdigest()} text\n{sums.read_text().splitlines()[-1]}\n")
-    assert is_complete(root / "models" / "one"), "checksums and all"
+    assert is_entry_complete(root / "models" / "one"), "checksums and all"
     {"group": open_to(0o020), "others": open_to(0o002), "another's": give}[what](root / where)
     with warnings.catch_warnings(record=True) as message:
         warnings.simplefilter("always")
@@ -90,11 +90,11 @@ def test_entries_that_were_swapped_are_noticed(root: Path) -> None:
     one.rename(root / "models" / "x")
     two.rename(one)
     (root / "models" / "x").rename(two)
-    assert not is_complete(one) and not is_complete(two)
+    assert not is_entry_complete(one) and not is_entry_complete(two)
     assert (Cache(root).fetch("models", "one", text("one")) / "text").read_text() == "one"
     other = root / "scenes"
     (root / "models").rename(other)
-    assert is_complete(root / "scenes" / "one") is False, "another kind"
+    assert is_entry_complete(root / "scenes" / "one") is False, "another kind"
 
 
 def test_a_folder_above_that_others_may_write_lets_them_swap_it(tmp_path: Path, give: Callable[[Path], None]) -> None:
@@ -155,7 +155,7 @@ def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
     if owner == 0:
         monkeypatch.setattr(os, "geteuid", lambda: 1000)
         check_trusted_path(root)
-        assert is_complete(root / "models" / "one")
+        assert is_entry_complete(root / "models" / "one")
     give(root.parent)
     monkeypatch.setattr(trust, "_read_overflow_user", lambda: OTHER)
     with pytest.raises(UntrustedPathError):
@@ -172,14 +172,14 @@ def test_what_we_make_is_ours_alone_whatever_the_umask(tmp_path: Path) -> None:
         os.umask(mask)
     for folder in (tmp_path / "new", tmp_path / "new" / "cache", entry.parent, entry, tmp_path / "new/cache/aside"):
         assert stat.S_IMODE(folder.stat().st_mode) == 0o700, folder
-    assert is_complete(entry)
+    assert is_entry_complete(entry)
 
 
 def test_a_file_that_is_a_link_is_not_read(root: Path) -> None:
     entry = root / "models" / "one"
     (entry / "text").rename(root / "text")
     (entry / "text").symlink_to(root / "text")
-    assert not is_complete(entry)
+    assert not is_entry_complete(entry)
 
 
 def test_a_list_that_leads_out_of_the_entry_is_not_read(root: Path) -> None:
@@ -187,7 +187,7 @@ def test_a_list_that_leads_out_of_the_entry_is_not_read(root: Path) -> None:
     (entry / "text").rename(root / "text")
     listed = (entry / CHECKSUM_FILE).read_text()
     (entry / CHECKSUM_FILE).write_text(listed.replace(" text", " ../../text"))
-    assert not is_complete(entry)
+    assert not is_entry_complete(entry)
 
 
 def test_a_temporary_folder_that_is_anothers_is_an_error(tmp_path: Path, give: Callable[[Path], None]) -> None:

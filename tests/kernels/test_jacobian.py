@@ -136,7 +136,7 @@ def check_solve(subject: Subject, t: float, y: np.ndarray, memory: np.ndarray, r
     for eta in (1e-8, 1e-5, 1e-3, 0.1):
         for s in (0.0, 0.7):
             r = rng.standard_normal(len(f_t))
-            u = library.newton(t, y, p, eta, s, r, memory)
+            u = library.solve_newton_system(t, y, p, eta, s, r, memory)
             matrix, b = np.eye(len(f_t)) / eta - J, r + s * f_t
             size = np.abs(matrix) @ np.abs(u) + np.abs(b)
             assert (np.abs(matrix @ u - b) <= 1e-11 * size.max()).all()

@@ -107,7 +107,7 @@ def test_a_run_starts_where_it_is_told() -> None:
     """Absolute to tree coordinates and back, with drives that prescribe what the tree leaves out."""
     press = gudgeon.load("nine_bar_press", scene="lubricated")
     start = press.start()
-    problem = Problem(press.compiled, press.p, np.zeros(1), start.q, start.v, np.full(2, np.nan), 1.0, p_free=press.p)
+    problem = Problem(press.compiled, press.p, np.zeros(1), start.q, start.v, np.full(2, np.nan), 1.0, p_motion=press.p)
     run = integrate_problem(problem)
     assert run.q[0] == pytest.approx(start.q, abs=1e-15)
     assert run.v[0] == pytest.approx(start.v, abs=1e-14)

@@ -21,7 +21,7 @@ from gudgeon.loading.cache import (
     compute_digest,
     get_default_cache,
     get_private_cache,
-    is_complete,
+    is_entry_complete,
 )
 
 
@@ -73,7 +73,7 @@ def test_not_visible_until_whole(folder: Cache) -> None:
         (work / "a").write_text("half")
         assert not (folder.root / "kind" / "key").exists()
 
-    assert is_complete(folder.fetch("kind", "key", make))
+    assert is_entry_complete(folder.fetch("kind", "key", make))
 
 
 def test_a_failed_make_leaves_nothing(folder: Cache) -> None:
@@ -102,7 +102,7 @@ def flip(path: Path) -> None:
 def test_a_damaged_entry_is_made_again(folder: Cache, name: str, damage: Callable[[Path], None]) -> None:
     make = Writer()
     damage(folder.fetch("kind", "key", make) / name)
-    assert is_complete(folder.fetch("kind", "key", make))
+    assert is_entry_complete(folder.fetch("kind", "key", make))
     # the newline at the end of the list is the one byte that nothing depends on
     assert make.calls == (1 if (name, damage) == (CHECKSUM_FILE, cut) else 2)
 
@@ -112,13 +112,13 @@ def test_a_list_cut_anywhere_is_noticed(folder: Cache) -> None:
     text = path.read_bytes().rstrip()
     for length in range(len(text)):
         path.write_bytes(text[:length])
-        assert not is_complete(path.parent), text[:length]
+        assert not is_entry_complete(path.parent), text[:length]
 
 
 def test_a_file_in_place_of_an_entry_is_replaced(folder: Cache) -> None:
     (folder.root / "kind").mkdir(parents=True)
     (folder.root / "kind" / "key").write_text("in the way")
-    assert is_complete(folder.fetch("kind", "key", Writer()))
+    assert is_entry_complete(folder.fetch("kind", "key", Writer()))
 
 
 def test_leftovers_of_dead_processes_are_swept_and_those_at_work_are_not(folder: Cache) -> None:
@@ -176,7 +176,7 @@ def test_a_folder_that_cannot_be_made_falls_back_with_a_warning(tmp_path: Path) 
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="GUDGEON_CACHE"):
         entry = Cache(tmp_path / "file" / "cache").fetch("kind", "key", Writer())
-    assert is_complete(entry)
+    assert is_entry_complete(entry)
     assert entry.is_relative_to(get_private_cache().root)
 
 
@@ -184,7 +184,7 @@ def test_a_name_that_the_system_has_not_falls_back(tmp_path: Path) -> None:
     cache = Cache(tmp_path / ("a" * 300))
     assert not cache.has_folder("kind", "key") and not cache.has_entry("kind", "key")
     with pytest.warns(RuntimeWarning, match="GUDGEON_CACHE"):
-        assert is_complete(cache.fetch("kind", "key", Writer()))
+        assert is_entry_complete(cache.fetch("kind", "key", Writer()))
 
 
 def test_a_limit_on_the_size_of_files_is_told_with_what_set_it(folder: Cache) -> None:
@@ -203,7 +203,7 @@ def test_a_full_disk_falls_back_and_leaves_nothing(folder: Cache) -> None:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     with pytest.warns(RuntimeWarning, match="No space left"):
-        assert is_complete(folder.fetch("kind", "full", make))
+        assert is_entry_complete(folder.fetch("kind", "full", make))
     assert list((folder.root / "aside").iterdir()) == []
 
 
@@ -219,7 +219,7 @@ def test_a_lock_held_too_long_falls_back(folder: Cache, monkeypatch: pytest.Monk
     folder.fetch("kind", "other", Writer())
     monkeypatch.setattr(cache_module, "LOCK_SECONDS", 0.0)
     with FileLock(folder.root / "locks" / "held.lock"), pytest.warns(RuntimeWarning, match="cannot be used"):
-        assert is_complete(folder.fetch("kind", "held", Writer()))
+        assert is_entry_complete(folder.fetch("kind", "held", Writer()))
 
 
 def test_the_environment_names_the_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

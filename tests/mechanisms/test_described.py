@@ -68,7 +68,11 @@ def test_it_moves_as_its_circles_say(name: str) -> None:
 def test_it_says_that_nothing_is_free(name: str) -> None:
     file = HERE / f"{name}.yaml"
     scene = assemble_scenes(read_mechanism(file.read_bytes(), name), branches=False).scenes["ideal"]
-    assert (scene.closed_mobility.freedoms, scene.closed_mobility.loose, scene.guess_deviations) == (0, (), {})
+    assert (scene.closed_mobility.freedoms, scene.closed_mobility.unconnected_bodies, scene.guess_deviations) == (
+        0,
+        (),
+        {},
+    )
 
 
 def test_the_shaper_returns_quickly() -> None:

@@ -137,7 +137,7 @@ def test_nothing_is_free_and_guesses_are_followed(name: str) -> None:
     scenes = assemble_scenes(read_mechanism(find_shipped_file(name).read_bytes(), name), branches=False).scenes
     assert (
         scenes["ideal"].closed_mobility.freedoms,
-        scenes["ideal"].closed_mobility.loose,
+        scenes["ideal"].closed_mobility.unconnected_bodies,
         scenes["ideal"].guess_deviations,
     ) == (0, (), {})
 

@@ -200,12 +200,14 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
         r = np.arange(2.0 * n + 3)
         yield argument("jacobian y", y, whole, lambda x: model.jacobian(0.5, x, p))
         yield argument("jacobian p", p, ones, lambda x: model.jacobian(0.5, y, x))
-        yield argument("newton y", y, whole, lambda x: model.newton(0.5, x, p, 0.1, 1.0, r))
-        yield argument("newton p", p, ones, lambda x: model.newton(0.5, y, x, 0.1, 1.0, r))
-        yield argument("newton r", r / 8, r, lambda x: model.newton(0.5, y, p, 0.1, 1.0, x))
+        yield argument("newton y", y, whole, lambda x: model.solve_newton_system(0.5, x, p, 0.1, 1.0, r))
+        yield argument("newton p", p, ones, lambda x: model.solve_newton_system(0.5, y, x, 0.1, 1.0, r))
+        yield argument("newton r", r / 8, r, lambda x: model.solve_newton_system(0.5, y, p, 0.1, 1.0, x))
         if model.n_memory:
             yield argument("jacobian memory", one / 2, one, lambda x: model.jacobian(0.5, y, p, x))
-            yield argument("newton memory", one / 2, one, lambda x: model.newton(0.5, y, p, 0.1, 1.0, r, x))
+            yield argument(
+                "newton memory", one / 2, one, lambda x: model.solve_newton_system(0.5, y, p, 0.1, 1.0, r, x)
+            )
 
 
 def simulation_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Numbers) -> Iterator[Argument]:

@@ -281,5 +281,5 @@ def test_ranks_do_not_depend_on_the_unit_of_length(load: Load, length: float) ->
         text = text.replace(", set: {a.theta: 50 deg}", "") if drive in text else text
         scene = load(re.sub(r"([\d.]+) m\b(?!/)", lambda found: f"{float(found[1]) * length:.9g} m", text))
         found = find_mobility(scene.compiled, scene.p, scene.start().q)
-        assert (found.freedoms, found.redundant, found.loose) == (freedoms, redundant, ()), text
+        assert (found.freedoms, found.redundant, found.unconnected_bodies) == (freedoms, redundant, ()), text
         assert scene.source.degrees_of_freedom == freedoms and bool(scene.source.indeterminate) == bool(redundant)

@@ -128,7 +128,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
         own["t_off"] = own["t_on"] + rng.integers(0, 2, len(own))
         threads[i % 2].submit(fetched.fetch_contacts, i, list(own), True).result()
         each[i].append(own)
-    assert len(fetched.all) == 2 and all(own.full for own in fetched.all)
+    assert len(fetched.thread_contacts) == 2 and all(own.full_blocks for own in fetched.thread_contacts)
     runs.python_lists = {}  # none by a method in Python
     runs.contacts, runs.first_contact_indices = fetched.join_contacts(9)
     whole = [np.concatenate([np.zeros(0, IMPACT_DTYPE), *several]) for several in each]

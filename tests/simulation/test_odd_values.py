@@ -200,7 +200,7 @@ COMPILED: dict[str, tuple[str, ...]] = {
     "rhs": ("t", "y", "p", "discrete_states"),
     "jacobian": ("t", "y", "p", "discrete_states"),
     "evaluate": ("t", "q", "v", "discrete_states", "p"),
-    "newton": ("t", "y", "p", "eta", "s", "r", "discrete_states"),
+    "solve_newton_system": ("t", "y", "p", "eta", "s", "r", "discrete_states"),
     "prepare": ("given", "is_given"),
     "mass": ("p",),
     "closed_phi": ("t", "q", "p"),

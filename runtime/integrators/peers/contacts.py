@@ -178,13 +178,14 @@ class Contacts:
             self.ratio = min(self.ratio[0], float(ratio)), max(self.ratio[1], float(ratio))
             self.ratio_outside += abs(ratio) > 1.0
         self.compressing &= closed & (now.deltadot[0] > 0.0)
-        lost = np.flatnonzero(~closed & (now.delta[0] > LOST_TOL * self.c + ROUNDING_TOL * self.R))
-        return int(lost[0]) if len(lost) else None
+        lost_joints = np.flatnonzero(~closed & (now.delta[0] > LOST_TOL * self.c + ROUNDING_TOL * self.R))
+        return int(lost_joints[0]) if len(lost_joints) else None
 
     def refine_peaks(self, step: AcceptedStep, t: Array, quantities: ContactQuantities) -> None:
         """Refine the largest forces inside a step by minimization, from the samples `quantities` at times t (N,).
 
-        Joints whose samples are below MIN_PEAK_FRACTION of their known peak are skipped.
+        Each is searched between the neighbours of the joint's largest sample and updates the joint's peak. Joints whose
+        samples are below MIN_PEAK_FRACTION of their known peak are skipped.
         """
         from scipy.optimize import minimize_scalar
 
@@ -272,4 +273,4 @@ class Contacts:
 def _find_velocity_floor(compiled: CompiledModel, p: Array) -> float:
     """Return the smallest approach speed δ̇⁻ (m/s) that an onset stores: the smallest `velocity_floor` of the scene."""
     slots = enumerate(compiled.source.slots)
-    return min((float(p[k]) for k, slot in slots if slot.address.endswith(".velocity_floor")), default=0.0)
+    return min((float(p[k]) for k, parameter in slots if parameter.address.endswith(".velocity_floor")), default=0.0)

@@ -114,7 +114,8 @@ class _Driver:
     def integrate(self) -> Trajectory:
         """Integrate to the end and return the Trajectory; after Ctrl-C or a SolverError, that of the samples reached.
 
-        The start is stored before packages are imported, so that Ctrl-C may interrupt the import.
+        The start is stored before packages are imported, so that Ctrl-C may interrupt the import. After Ctrl-C the last
+        state is stored as a sample too.
         """
         interrupted, stopped = False, None
         self._store_start_sample()
@@ -168,10 +169,11 @@ class _Driver:
         self.stepper.restart(self.t, self.y, self.atol)
 
     def _advance_step(self) -> None:
-        """Advance by one step of the solver, or by its part up to an event.
+        """Advance by one step of the solver, or by its part up to the first contact event.
 
-        Samples before its end are stored, steps passed to the observer, and contacts switched. Raises SolverError, also
-        for contacts that change without end, and NonFiniteError.
+        Samples before its end are stored, steps passed to the observer, and contacts switched. The end is projected
+        onto the constraints; after an event the solver is restarted there. Raises SolverError, also for contacts that
+        change without end, and NonFiniteError.
         """
         t1 = self.stepper.step()
         step = AcceptedStep(
@@ -216,7 +218,10 @@ class _Driver:
         self.is_after_change = False
 
     def _locate_event_and_refine_peaks(self, step: AcceptedStep) -> tuple[float, int] | None:
-        """Return time (s) and joint of the first contact event in the step, or None; refine force peaks before it."""
+        """Return time (s) and joint of the first contact event in the step, or None; refine force peaks before it.
+
+        The contact quantities are sampled on the dense output of the step. Without joints with play, nothing is done.
+        """
         if not self.contacts.count:
             return None
         t = step.compute_sample_times()
@@ -229,7 +234,10 @@ class _Driver:
         return event
 
     def _update_state(self) -> None:
-        """Update speeds, residuals and contacts by an accepted state. Raise SolverError if a contact was lost."""
+        """Update the largest speeds and residuals, and the contacts, by an accepted state.
+
+        Raises SolverError if a contact was lost: a joint that counts as open is inside its wall.
+        """
         v = np.abs(self.y[self.n : 2 * self.n])
         kinds = [v[~self.angle].max(initial=0.0), v[self.angle].max(initial=0.0)]
         self.speed = np.maximum(self.speed, kinds)
@@ -237,9 +245,9 @@ class _Driver:
         self.max_residuals = np.maximum(
             self.max_residuals, compute_residuals(self.problem.compiled, self.t, q, v, self.equations.p)
         )
-        lost = self.contacts.update_contacts(self.t, self.y) if self.contacts.count else None
-        if lost is not None:
-            name = self.problem.compiled.source.clearances[lost].name
+        lost_joint = self.contacts.update_contacts(self.t, self.y) if self.contacts.count else None
+        if lost_joint is not None:
+            name = self.problem.compiled.source.clearances[lost_joint].name
             raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, open, is inside its wall", self.t)
 
     def _continue_solver(self, is_event: bool, solver_state: Array) -> None:

@@ -129,15 +129,19 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
         return animation
     try:
         with convert_os_errors(file):  # errors in the temporary folder
-            film_bytes = _encode_film(run, options, suffix)
+            video_bytes = _encode_video(run, options, suffix)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
-    write_bytes(file, film_bytes)
+    write_bytes(file, video_bytes)
     return None
 
 
 def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
-    """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress."""
+    """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress.
+
+    Arrows are drawn if `options` requests them. Joints in contact, and those that were since the previous picture, are
+    marked; a note explains the marks.
+    """
     motion = select_configurations(run, 60)
     layout = make_layout(motion)
     box, paths = compute_common_box(motion, [layout]), build_path_lines(run, options.points)
@@ -254,10 +258,11 @@ def _append_colour_stripes(image: Any) -> Any:
     return extended_image
 
 
-def _encode_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
+def _encode_video(run: Result, options: AnimationOptions, suffix: str) -> bytes:
     """Return the bytes of a GIF or MP4 file, written by matplotlib into a temporary directory.
 
-    `suffix` is ".gif" or ".mp4". Raises CalledProcessError if ffmpeg fails.
+    `suffix` is ".gif" or ".mp4". Names keep their offsets from the previous picture if these are free. Raises
+    CalledProcessError if ffmpeg fails.
     """
     from matplotlib.animation import FFMpegWriter
 

@@ -26,8 +26,8 @@ MAX_PANELS = 4  # panels of a figure
 def get_force_curve(run: Result, joint: str) -> tuple[Array, Array]:
     """Return times and force magnitudes (N) of a joint, sorted by time, (k,) each: samples and extremes over steps.
 
-    The extremes are those of the envelope. Without an envelope they are the peaks of all impacts with a duration, and
-    the peak of the run (diagnostics.peaks). For a joint without play there are samples only.
+    The extremes are those of the envelope (run.trace). Without an envelope they are the peaks of all impacts with a
+    duration, and the peak of the run (diagnostics.peaks). For a joint without play there are samples only.
     """
     k = _find_clearance_index(run, joint)
     if k is None:

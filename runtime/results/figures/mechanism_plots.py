@@ -78,7 +78,7 @@ def draw_requested_arrows(
     if not forces:
         return layout, all_arrows
     reactions, force_scale = draw_force_arrows(run, configuration, layout)
-    return replace(layout, newton=force_scale), [*all_arrows, reactions]
+    return replace(layout, metres_per_newton=force_scale), [*all_arrows, reactions]
 
 
 def draw_velocity_arrows(configuration: Configuration, motion: Sequence[Configuration], layout: Layout) -> Arrows:

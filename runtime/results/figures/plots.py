@@ -103,9 +103,10 @@ def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
 
 
 def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half_width: float) -> None:
-    """Draw the path of a journal, e/c, in its clearance circle, with dots where the surfaces are in contact.
+    """Draw the path of a journal, e/c, in its clearance circle, with dots where the surfaces are in contact (e ≥ c).
 
-    Beyond the predictability horizon the path is grey. `half_width` is half the side of the square, in units of c.
+    A ring marks the start. Beyond the predictability horizon the path is grey. `half_width` is half the side of the
+    square, in units of c.
     """
     c = run.constants[f"{joint}.c"]
     t, x, y = joint_curves.get_journal_path(run, joint)
@@ -251,7 +252,8 @@ def _draw_forces(
     """Draw the force panels: forces in every scene, with their peaks (▾), and the ideal reaction over them, dashed.
 
     `panels` has the names of the series of each panel by title, in the order of `axes`. `runs`, the ideal runs
-    `references` and `colours` are by scene. The ideal reaction is that of the reference that ends last.
+    `references` and `colours` are by scene. The ideal reaction is the first series of the panel in the reference that
+    ends last. Scenes without a series of the panel are left out.
     """
     for ax, (title, names) in zip(axes, panels.items(), strict=True):
         available = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
@@ -309,7 +311,10 @@ def _wrap_label(ax: Axes, label: str) -> str:
 
 
 def _draw_orbits(subfigure: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
-    """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale."""
+    """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale.
+
+    A row has at most MAX_ORBIT_COLUMNS scenes. Joints without an eccentricity in a scene are left out there.
+    """
     scenes = list(runs)
     n_columns = min(len(scenes), MAX_ORBIT_COLUMNS)
     n_rows = -(-len(scenes) // n_columns)
@@ -335,7 +340,9 @@ def _draw_title_and_legend(
 ) -> None:
     """Draw the title of the mechanism and one legend for all panels.
 
-    The legend is next to the title, or below all panels if it has more than MAX_LEGEND_ENTRIES entries.
+    It has an entry for each scene in `colours`, for the ideal reference if `has_reference`, and for the time beyond the
+    predictability horizon. The legend is next to the title, or below all panels if it has more than MAX_LEGEND_ENTRIES
+    entries.
     """
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch

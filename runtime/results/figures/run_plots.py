@@ -99,8 +99,8 @@ class Plot:
     def _plot_curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, x_label: str = "t [s]") -> Axes:
         """Plot curves of one unit by name, each with times (or frequencies) and values, and return the axes.
 
-        `x_label` is the label of the abscissa. Several curves have a legend on the right. Raises BadValueError without
-        a name.
+        `x_label` is the label of the abscissa; over time, the predictability horizon is marked. Several curves have a
+        legend on the right. Raises BadValueError without a name. `ax` None: on new axes.
         """
         run, names = self.run, list(curves)
         if not names:

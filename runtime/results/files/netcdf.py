@@ -304,11 +304,11 @@ def check_times(t: Array) -> None:
 
 def _check_given_values(source: KernelSource, p: Array, given_values: Array, is_given: Array) -> None:
     """Raise ValueError unless overridden values equal the values of the run, and flags are 0 or 1."""
-    for slot, value, overriding_value, was_overridden in zip(
+    for parameter, value, overriding_value, was_overridden in zip(
         source.slots, p.tolist(), given_values.tolist(), is_given.tolist(), strict=False
     ):
         if was_overridden not in (0, 1) or was_overridden and not overriding_value == value:
-            raise ValueError(f"{slot.address} is {value!r}, but was given as {overriding_value!r}")
+            raise ValueError(f"{parameter.address} is {value!r}, but was given as {overriding_value!r}")
 
 
 def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:

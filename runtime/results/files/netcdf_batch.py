@@ -72,7 +72,7 @@ def build_batch_tables(batch: Batch) -> Iterator[Table]:
         tables_by_run += build_stored_series_tables(batch)
         yield build_long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
     yield Table(RUNS, NUMBER, tuple(_iterate_run_variables(batch, runs)), {})
-    units = {slot.address: slot.unit for slot in batch.source.slots}
+    units = {parameter.address: parameter.unit for parameter in batch.source.slots}
     given_variables = (
         Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items()
     )
@@ -464,18 +464,20 @@ def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mappin
     """
     if not file.has_entry(GIVEN):
         return {}
-    given_slots = {slot.address: slot for slot in source.slots if file.has_entry(f"{GIVEN}/{slot.address}")}
-    if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_slots, NUMBER}):
+    given_parameters = {
+        parameter.address: parameter for parameter in source.slots if file.has_entry(f"{GIVEN}/{parameter.address}")
+    }
+    if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_parameters, NUMBER}):
         raise ValueError(f"{unknown_names[0][:64]!r} was given, but its scene has no such parameter")
     given = {
         address: np.array(file.read_texts(f"{GIVEN}/{address}", n_runs), dtype=object)
-        if slot.words
+        if parameter.words
         else file.read_numbers(f"{GIVEN}/{address}", n_runs)
-        for address, slot in given_slots.items()
+        for address, parameter in given_parameters.items()
     }
     for address, values in given.items():
         for i, value in enumerate(values.tolist()):
-            if given_slots[address].words and value not in given_slots[address].words:
+            if given_parameters[address].words and value not in given_parameters[address].words:
                 raise ValueError(f"run {i}: {address} is {value[:64]!r}, which is not a choice")
             if i in runs and value != runs[i].parameters[address]:
                 actual = runs[i].parameters[address]
