@@ -27,24 +27,24 @@ double read_clock(void)
 int poll_cancellation(Cancellation *token)
 {
     token->count = 0;
-    if (!token->ask)
+    if (!token->is_stop_requested)
         token->poll_after = LONG_MAX;
-    if (token->ask && !token->stop) {
-        const double time_now = read_clock(), elapsed = time_now - token->last;
-        token->last = time_now;
-        if (elapsed < 0.1 * token->every)
+    if (token->is_stop_requested && !token->stop) {
+        const double time_now = read_clock(), elapsed = time_now - token->last_reading;
+        token->last_reading = time_now;
+        if (elapsed < 0.1 * token->poll_interval)
             token->poll_after = token->poll_after < MAX_POLL_AFTER / 2 ? 2 * token->poll_after + 1 : MAX_POLL_AFTER;
-        else if (elapsed > 0.5 * token->every)
+        else if (elapsed > 0.5 * token->poll_interval)
             token->poll_after = (token->poll_after + 1) / 2;
-        if (time_now >= token->next || elapsed < 0.0) {
-            token->stop = token->ask(token->caller) != 0;
-            token->last = read_clock();
-            token->next = token->last + token->every;
+        if (time_now >= token->next_poll || elapsed < 0.0) {
+            token->stop = token->is_stop_requested(token->context) != 0;
+            token->last_reading = read_clock();
+            token->next_poll = token->last_reading + token->poll_interval;
         }
     }
     if (token->stop)
         token->poll_after = 0;
-    return token->stop && !token->hold;
+    return token->stop && !token->is_deferred;
 }
 
 /*
@@ -53,7 +53,7 @@ int poll_cancellation(Cancellation *token)
  */
 void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval)
 {
-    *token = (Cancellation){.ask = is_stop_requested, .caller = context, .every = poll_interval};
+    *token = (Cancellation){.is_stop_requested = is_stop_requested, .context = context, .poll_interval = poll_interval};
 }
 
 /*
@@ -116,15 +116,16 @@ int detect_stall(ProgressMonitor *monitor, double t, double t_end)
         return 0;
     const double steps_left = estimate_remaining_steps(monitor, t, t_end);
     monitor->slowdown =
-        steps_left > MAX_STEPS_LEFT_SLOW && monitor->gain * (double)monitor->good < MIN_GAIN_RATIO * monitor->sum;
+        steps_left > MAX_STEPS_LEFT_SLOW
+        && monitor->gain * (double)monitor->n_gains < MIN_GAIN_RATIO * monitor->gain_sum;
     if (steps_left > MAX_STEPS_LEFT || monitor->slowdown) {
-        monitor->slow = monitor->gain > 1.1 * gain_before ? 0 : monitor->slow + 1;
+        monitor->n_slow_checks = monitor->gain > 1.1 * gain_before ? 0 : monitor->n_slow_checks + 1;
     } else {
-        monitor->slow = 0;
-        monitor->sum += monitor->gain;
-        monitor->good++;
+        monitor->n_slow_checks = 0;
+        monitor->gain_sum += monitor->gain;
+        monitor->n_gains++;
     }
-    return monitor->slow >= MAX_SLOW_CHECKS;
+    return monitor->n_slow_checks >= MAX_SLOW_CHECKS;
 }
 
 /*

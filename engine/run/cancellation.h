@@ -15,10 +15,10 @@ typedef struct {
  * advanced, and number of successive checks without progress.
  */
 typedef struct {
-    double t, gain, sum; /* s: start of these steps; gain of the last ones; sum of good gains */
-    long steps, good;
+    double t, gain, gain_sum; /* s: start of these steps; gain of the last ones; sum of good gains */
+    long steps, n_gains; /* n_gains: number of good gains */
     /* number of successive slow checks; 1: far slower than before, GROWTH_DOUBLINGS: exponential growth, else 0 */
-    int slow, slowdown;
+    int n_slow_checks, slowdown;
     Doubling doubling;
 } ProgressMonitor;
 
@@ -31,10 +31,10 @@ long count_steps_before_check(const ProgressMonitor *monitor);
  * Defer requests to stop: is_cancelled() and poll_cancellation() return 0 until allow_stop(). Called before a step is
  * committed.
  */
-static inline void defer_stop(Cancellation *token) { token->hold = 1; }
+static inline void defer_stop(Cancellation *token) { token->is_deferred = 1; }
 
 /* End the deferral of defer_stop(): from now on a request to stop, also one that was deferred, is obeyed. */
-static inline void allow_stop(Cancellation *token) { token->hold = 0; }
+static inline void allow_stop(Cancellation *token) { token->is_deferred = 0; }
 
 /*
  * Count one right-hand side and return whether the computation must stop. The caller's function is polled

@@ -264,7 +264,7 @@ static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->discrete.contact[i].closed && run->contacts.lasting[i].t_on == run->t && is_compliant(i))
+        if (run->discrete.contact[i].closed && run->contacts.ongoing[i].t_on == run->t && is_compliant(i))
             record_force(run, i, run->t, compute_force_magnitude(&run->rhs.clearance[i]));
 }
 

@@ -136,7 +136,7 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
 /*
  * Find and record the largest force of a rigid contact inside a step up to `fraction`. The force may rise and fall
  * while the motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest
- * force.
+ * force by RIGID_FORCE_TOL, at most MAX_BISECTIONS deep and with about MAX_FORCE_SAMPLES evaluations.
  *
  * force_begin, force_end: forces at both ends, N; the first is always recorded. The search is omitted if the stages
  * show a monotone force, or without dense output.
@@ -155,7 +155,7 @@ static void record_rigid_peak(
             {fraction, force_end, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart now = part[n - 1];
-        const double largest_known = max_of(run->contacts.lasting[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
+        const double largest_known = max_of(run->contacts.ongoing[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
         const double width = now.end.s - from.s;
         const double slope = 0.5 * (now.end.f - from.f), curvature = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = curvature < 0.0 && fabs(slope) < -curvature ? now.middle.f - 0.5 * slope * slope / curvature
@@ -277,8 +277,9 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 
 /*
  * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
- * through both ends and the first stage after `fraction` decides; its curvature is multiplied by ERROR_SAFETY. Return 1
- * if there is no such stage.
+ * through both ends and the first stage after `fraction` decides; its curvature is multiplied by ERROR_SAFETY. Return 0
+ * if the maximum would exceed the larger end value by less than MAXIMUM_RATIO - 1 of it. Return 1 if there is no such
+ * stage.
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
@@ -338,7 +339,7 @@ static void record_inner_peaks(Integrator *run, Step *step, double fraction, con
     for (int i = 0; i < N_CLEARANCES; i++) {
         record_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
-        const double largest_known = run->discrete.contact[i].closed ? run->contacts.lasting[i].F_peak
+        const double largest_known = run->discrete.contact[i].closed ? run->contacts.ongoing[i].F_peak
             : run->contacts.F_peak[i];
         force_begin[i] = compute_force_magnitude(a), force_end[i] = compute_force_magnitude(b);
         /* a contact's force may double in a step, a film's grows by some percent */

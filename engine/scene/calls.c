@@ -77,8 +77,8 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
         discrete->event_sign[i] = 0;
     discrete->is_frozen = 0;
     discrete->token = NULL;
-    discrete->least = NEARLY_SINGULAR;
-    discrete->least_size = VANISHING;
+    discrete->min_pivot = NEARLY_SINGULAR;
+    discrete->min_pivot_size = VANISHING;
 }
 
 /*
