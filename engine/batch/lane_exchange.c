@@ -14,7 +14,7 @@ enum { MAX_GROUP_RUNS = 4 * LANES };
 /* Several current runs in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *batch;
-    const SingleRunFunctions *single_run;
+    const SingleRunFunctions *scalar_functions;
     Integrator *run[MAX_GROUP_RUNS];
     long run_number[MAX_GROUP_RUNS]; /* -1: free */
     int next_method[MAX_GROUP_RUNS]; /* method of the next step of each run; -1: none */
@@ -91,7 +91,7 @@ static void gather_state(LaneGroup *group, int k, int is_requested)
     group->local_steps.may_accept[k] = 0;
     if (is_requested)
         load_lane_local_steps(&group->local_steps, lanes, k, group->batch, group->run_number[group->loaded_run[k]],
-            group->single_run, run);
+            group->scalar_functions, run);
 #else
     (void)is_requested;
 #endif

@@ -41,7 +41,7 @@ static void flush_lane(LaneGroup *group, int i)
 static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *buffers_full)
 {
     const int result =
-        group->single_run->advance_single(group->batch, group->run_number[i], trial_result, group->run[i]);
+        group->scalar_functions->advance_single(group->batch, group->run_number[i], trial_result, group->run[i]);
     *buffers_full |= result == BUFFERS_FULL;
     return record_run_result(group, i, result);
 }
@@ -170,12 +170,13 @@ static int begin_or_resume_run(LaneGroup *group, int i)
     const Batch *batch = group->batch;
     const long run = group->run_number[i];
     if (batch->phase[run] == NEW) {
-        batch->status[run] = group->single_run->begin(batch, run, group->run_number, MAX_GROUP_RUNS, group->run[i]);
+        batch->status[run] =
+            group->scalar_functions->begin(batch, run, group->run_number, MAX_GROUP_RUNS, group->run[i]);
         batch->phase[run] = batch->status[run] ? OVER : BEGUN;
     }
     if (batch->phase[run] == OVER)
         return record_run_result(group, i, RUN_ENDED);
-    return record_run_result(group, i, group->single_run->advance_single(batch, run, NO_TRIAL, group->run[i]));
+    return record_run_result(group, i, group->scalar_functions->advance_single(batch, run, NO_TRIAL, group->run[i]));
 }
 
 /* Return the number of runs in a group. */
@@ -191,18 +192,19 @@ static int count_group_runs(const LaneGroup *group)
 int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 
 /*
- * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes,
- * each in its own Integrator run[i]. Return CALL_AGAIN, to be called again, if runs are over
- * (run_number[i] = -1) or after `limit` steps. Return BUFFERS_FULL if the lists of a run are full, BATCH_ENDED
- * if fewer than two runs are left or the batch is ending. Unfinished runs then continue alone
- * (gudgeon_ensemble). single: the functions that gudgeon_single_run_functions() returns. The wall
- * time is shared equally by the runs.
+ * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes, each in its own
+ * Integrator run[i]. scalar_functions: those that gudgeon_single_run_functions() returns. The wall time is shared
+ * equally by the runs. Return one of
+ *   CALL_AGAIN: runs are over (run_number[i] = -1), or `limit` steps are made;
+ *   BUFFERS_FULL: fetch contacts, events and recorded steps of the runs, then call again;
+ *   BATCH_ENDED: fewer than two runs are left, or the batch is ending; unfinished runs continue alone
+ *       (gudgeon_ensemble()).
  */
-int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *run_number)
+int gudgeon_lanes(const void *batch, const void *scalar_functions, void *const *run, long *run_number)
 {
     LaneGroup group;
     memset(&group, 0, CLEARED_BYTES);
-    group.batch = batch, group.single_run = single;
+    group.batch = batch, group.scalar_functions = scalar_functions;
     const double before = read_wall_time();
     int n_reported = 0, buffers_full = 0, entered = 0;
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {

@@ -185,11 +185,11 @@ static void flush_lane_local_steps(
  */
 static void load_lane_local_steps(
     LaneLocalSteps *local_steps, LaneIntegrator *lanes, int k, const Batch *batch, long i,
-    const SingleRunFunctions *single, const Integrator *run)
+    const SingleRunFunctions *scalar_functions, const Integrator *run)
 {
     const double *t = get_sample_times(batch, i);
     LocalStepLimits limits;
-    single->get_local_step_limits(run, batch->p_motion + i * batch->numbers, &limits);
+    scalar_functions->get_local_step_limits(run, batch->p_motion + i * batch->numbers, &limits);
     local_steps->steps[k] = 0;
     local_steps->max_local_steps[k] =
         (run->control.attempt.lane_method == METHOD_TAYLOR) == LANE_SERIES ? limits.max_steps : 0;

@@ -10,9 +10,9 @@
  * Return whether a run is cancelled: the batch is ending, or it must be short (KinematicBatch.must_be_short). Called as
  * the poll of its cancellation token.
  */
-static int is_batch_ending(void *caller)
+static int is_batch_ending(void *context)
 {
-    const KinematicBatch *batch = caller;
+    const KinematicBatch *batch = context;
     return *batch->ending || batch->must_be_short;
 }
 

@@ -441,15 +441,16 @@ static int count_active_lanes(const RunLanes *lanes)
 int gudgeon_lane_count(void) { return LANES; }
 
 /*
- * Compute n runs of a batch, whose indices are given, in lanes, each in one of the memories run[LANES]. single: the
- * functions that gudgeon_single_run_functions() returns. The last run in the lanes is completed by scalar steps. If the
- * batch is ending, the current runs end at once, and no run begins.
+ * Compute n runs of a batch, whose indices are given, in lanes, each in one of the memories run[LANES].
+ * scalar_functions: those that gudgeon_single_run_functions() returns. The last run in the lanes is completed by scalar
+ * steps. If the batch is ending, the current runs end at once, and no run begins.
  */
-void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const *run, long n, const long *indices)
+void gudgeon_kinematic_lanes(
+    const void *batch, const void *scalar_functions, void *const *run, long n, const long *indices)
 {
     RunLanes lanes;
     memset(&lanes, 0, sizeof lanes);
-    lanes.batch = batch, lanes.scalar_functions = single;
+    lanes.batch = batch, lanes.scalar_functions = scalar_functions;
     lanes.extent = broadcast(1.0);
     lanes.position = &lanes.positions[0], lanes.next = &lanes.positions[1];
     long next = 0;

@@ -111,12 +111,13 @@ static double estimate_film_error_at_ends(const Integrator *run, const Step *ste
 }
 
 /*
- * Return whether the errors of film forces need not be measured inside this step. end_error: that at the ends of the
- * step, in limits. Always 1 for explicit methods and without films.
+ * Return whether the errors of film forces need not be measured inside this step: a stiff step with films is measured
+ * unless they are known to be small. end_error: that at the ends of the step, in limits. Always 1 for explicit methods
+ * and without films.
  *
  * The last measured error and end_error must be below MAX_SMALL_FILM_ERROR. Errors are measured at least every
  * MAX_UNMEASURED_FILM_STEPS steps, in steps FILM_LENGTH_RATIO longer than the last measured one, and in the first step
- * after an event.
+ * after an event. Called before a step is accepted.
  */
 static int can_skip_film_error(const Integrator *run, const Step *step, double end_error)
 {

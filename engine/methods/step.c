@@ -174,13 +174,15 @@ static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 static double *get_end_rounding(Integrator *run); /* methods/taylor.c */
 
 /*
- * Project state y onto the constraint equations, unless Baumgarte stabilisation by the method replaces that. lost
- * (N_Y): rounding errors of y, NULL: they are not known.
+ * Project state y at time t in place onto the constraint equations, unless Baumgarte stabilisation by the method
+ * replaces that. If the projection cannot be computed, y stays. rounding_errors (N_Y): accumulated ones of y, updated;
+ * NULL: none are accumulated.
  */
-static void project_unless_stabilised(Integrator *run, double t, double *y, double *lost, const Parameters *p)
+static void project_unless_stabilised(
+    Integrator *run, double t, double *y, double *rounding_errors, const Parameters *p)
 {
     if (!uses_baumgarte_terms(run))
-        project_onto_constraints(run, t, y, lost, p);
+        project_onto_constraints(run, t, y, rounding_errors, p);
 }
 
 /*

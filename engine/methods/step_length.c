@@ -25,15 +25,15 @@
 enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against the stiff method until it is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
-    MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
-    MAX_CONTRARY_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
+    MAX_OPPOSING_STEPS = 3 /* successive steps against the explicit method until the first change */,
+    MAX_OPPOSING_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
     CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
     MIN_COMPARE_STEPS = 8, MAX_COMPARE_STEPS = 200 /* steps after a change: the lengths of both methods are compared */,
     MAX_REDUCTIONS = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
 #define STIFF_COST 1.3             /* times a step of the explicit method: processor time of a stiff step */
-#define MAX_CONTRARY_GROWTH 2.0    /* with films: ratio of step lengths up to which the stiff method is left */
+#define MAX_OPPOSING_GROWTH 2.0    /* with films: ratio of step lengths up to which the stiff method is left */
 #define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
@@ -58,13 +58,15 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
     run->choice.explicit = METHODS[method]->stiff ? EXPLICIT_METHOD : METHODS[method];
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
-    run->choice.max_opposing_steps = MAX_CONTRARY_STEPS;
+    run->choice.max_opposing_steps = MAX_OPPOSING_STEPS;
     run->choice.return_steps = stiff_method && METHODS[method]->stiff ? 4 * MIN_RETURN_STEPS : MIN_RETURN_STEPS;
 }
 
 /*
- * Start the step-size control of a run at its current time. fixed_step: length of all steps, s, which are accepted with
- * any error; 0: error norms determine the length, and the first one is estimated later.
+ * Start the step-size control of a run at its current time, which also becomes the origin of the grid of fixed steps.
+ * fixed_step: length of all steps, s, which are accepted with any error; 0: steps with an error norm of at most 1 are
+ * accepted, and the first length is estimated later. The error before the first step counts as MIN_LAST_ERROR. The
+ * choice of the method (set_method_choice()) is not changed.
  */
 static void start_step_control(Integrator *run, double fixed_step)
 {
@@ -144,7 +146,7 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
  * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho (spectral
  * radius of the Jacobian, 1/s), or when its steps do not pay; the next switch to it then needs twice as many steps.
- * With films it is not left while its steps still grow (MAX_CONTRARY_GROWTH). A refused switch waits RECONSIDER_STEPS.
+ * With films it is not left while its steps still grow (MAX_OPPOSING_GROWTH). A refused switch waits RECONSIDER_STEPS.
  * Called after each accepted step.
  */
 static void switch_method_after_step(Integrator *run, const Parameters *p)
@@ -156,7 +158,7 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
     if (detect_slow_stiff_method(&run->choice, run->step.h) && run->choice.automatic) {
-        run->choice.max_opposing_steps *= run->choice.max_opposing_steps < MAX_CONTRARY_LIMIT ? 2 : 1;
+        run->choice.max_opposing_steps *= run->choice.max_opposing_steps < MAX_OPPOSING_LIMIT ? 2 : 1;
         run->choice.rho = 0.0;
         change_method(run);
         return;
@@ -170,7 +172,7 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
     const int n_needed = stiff ? run->choice.return_steps : run->choice.max_opposing_steps;
     if (!run->choice.automatic || run->choice.n_opposing_steps < n_needed)
         return;
-    if (stiff && has_films() && run->control.h > MAX_CONTRARY_GROWTH * run->choice.opposing_length) {
+    if (stiff && has_films() && run->control.h > MAX_OPPOSING_GROWTH * run->choice.opposing_length) {
         run->choice.n_opposing_steps = 0; /* its steps still grow, as after the start: their stiffness will show */
         return;
     }

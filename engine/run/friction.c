@@ -2,6 +2,10 @@
  * Stick-slip: friction elements that can stick, their modes, and the changes of these modes at events. A step ends
  * where the slip reaches zero or the force of stick reaches its limit: at the zero of
  * evaluate_friction_event_function() on the step.
+ *
+ * Modes of an element (DiscreteState.mode): 0 sticks, with the force that keeps its slip at zero; 1 or -1 slips in
+ * that direction against its kinetic force; MODE_HELD (2) is at rest without a force, because drives or other friction
+ * elements hold its slip at zero.
  */
 #if N_FRICTIONS
 #define SLIP_ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */

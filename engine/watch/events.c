@@ -411,9 +411,9 @@ static double find_first_event(Integrator *run, Step *step, const Parameters *p,
 static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.suppressed_switch = -1; }
 
 /*
- * Set the resolution of event times: 1e-12 s, less near the end of the run: at most 1e-11 of the time left (s). With
- * steps of fixed length it is at most 1e-8 of the step instead, so that a resumed run repeats the uninterrupted one.
- * Called when a run begins or resumes.
+ * Set the resolution of event times, roots.time_resolution: min(1e-12 s, 1e-11 time_left), where time_left is the time
+ * to the end of the run, s. With steps of fixed length h it is min(1e-12 s, 1e-8 h), so that a resumed run repeats the
+ * uninterrupted one. Called when a run begins or resumes.
  */
 static void set_time_resolution(Integrator *run, double time_left)
 {

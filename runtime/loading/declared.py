@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-SHA256 = "9bc79e2282b5827865933053bd57c93bbc40033f48de1e0396bfb370ae99e851"  # SHA-256 of these declarations
+SHA256 = "3705df50a4bd2ea1ca1839ab718933a01e36aef3c35dcb13972c68733c39646a"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
