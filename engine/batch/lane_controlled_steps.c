@@ -137,7 +137,7 @@ static Lanes check_film_errors(const LaneLocalSteps *local_steps, LaneIntegrator
  * it, are removed. Return the mask of the lanes that evaluated the forces just after the step. is_rising: set to
  * whether the force of each joint rises at the end.
  */
-static LaneBits exclude_inner_peaks(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
+static LaneBits exclude_peaks_within_step(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     const LaneStep *step, const LaneParameters *p, LaneBits *found, LaneBits *is_rising)
 {
     LaneBits is_candidate[AT_LEAST_ONE(N_CLEARANCES)], has_trend[AT_LEAST_ONE(N_CLEARANCES)], needs_trend = {0};
@@ -298,7 +298,7 @@ static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegra
         return accepted;
     const Lanes error =
         check_film_errors(local_steps, lanes, method, step, p, &accepted, &is_measured, &film_error);
-    LaneBits has_looked_ahead = exclude_inner_peaks(local_steps, lanes, method, step, p, &accepted, is_rising);
+    LaneBits has_looked_ahead = exclude_peaks_within_step(local_steps, lanes, method, step, p, &accepted, is_rising);
     has_looked_ahead &= accepted;
     is_measured &= accepted;
     local_steps->film_error = select_value(is_measured, film_error, local_steps->film_error);

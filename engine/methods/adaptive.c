@@ -50,7 +50,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     int status = fraction < 1.0 ? evaluate_state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
-    record_inner_peaks(run, step, fraction, p);
+    record_peaks_within_step(run, step, fraction, p);
     flip_ignored_branches(run, step);
     update_energy_scale(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {

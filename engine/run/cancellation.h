@@ -23,7 +23,7 @@ typedef struct {
 } ProgressMonitor;
 
 double read_clock(void);
-void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval);
+void start_polling(Cancellation *cancellation, int (*is_stop_requested)(void *), void *context, double poll_interval);
 int detect_stall(ProgressMonitor *monitor, double t, double t_end);
 long count_steps_before_check(const ProgressMonitor *monitor);
 
@@ -31,19 +31,19 @@ long count_steps_before_check(const ProgressMonitor *monitor);
  * Defer requests to stop: is_cancelled() and poll_cancellation() return 0 until allow_stop(). Called before a step is
  * committed.
  */
-static inline void defer_stop(Cancellation *token) { token->is_deferred = 1; }
+static inline void defer_stop(Cancellation *cancellation) { cancellation->is_deferred = 1; }
 
 /* End the deferral of defer_stop(): from now on a request to stop, also one that was deferred, is obeyed. */
-static inline void allow_stop(Cancellation *token) { token->is_deferred = 0; }
+static inline void allow_stop(Cancellation *cancellation) { cancellation->is_deferred = 0; }
 
 /*
  * Count one right-hand side and return whether the computation must stop. The caller's function is polled
  * (poll_cancellation()) only after `poll_after` right-hand sides; in between the result is 0. Called at each right-hand
  * side.
  */
-static inline int is_cancelled(Cancellation *token)
+static inline int is_cancelled(Cancellation *cancellation)
 {
-    return ++token->count > token->poll_after && poll_cancellation(token);
+    return ++cancellation->count > cancellation->poll_after && poll_cancellation(cancellation);
 }
 
 #endif

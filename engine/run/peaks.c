@@ -75,7 +75,7 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
  * if a force rose before the step and falls at its end, or a stage exceeds both ends. The dense output must have been
  * computed.
  */
-static void record_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
+static void record_peak_within_step(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
     double force_end,
     const Parameters *p)
 {
@@ -281,7 +281,8 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
  * if the maximum would exceed the larger end value by less than MAXIMUM_RATIO - 1 of it. Return 1 if there is no such
  * stage.
  */
-static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
+static int may_have_maximum_within_step(
+    const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     double node = INFINITY, force = NAN;
@@ -297,9 +298,9 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
 
 /*
  * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages; 0 without stages
- * inside. If a compliant contact continues, fewer than MIN_INNER_STAGES are inside and may_have_inner_maximum() is
- * true, the force in the middle is evaluated on the dense output and recorded as well. force_begin, force_end: forces
- * at both ends, N.
+ * inside. If a compliant contact continues, fewer than MIN_INNER_STAGES are inside and may_have_maximum_within_step()
+ * is true, the force in the middle is evaluated on the dense output and recorded as well. force_begin, force_end:
+ * forces at both ends, N.
  */
 static double find_largest_force_within_step(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
@@ -313,7 +314,7 @@ static double find_largest_force_within_step(
             n_inner++;
         }
     if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && is_compliant(joint)
-        && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
+        && may_have_maximum_within_step(step, fraction, joint, force_begin, force_end)
             && compute_dense_output(run, p, step) == 0)
         return max_of(sqrt(largest_square), evaluate_and_record_joint_force(run, step, 0.5 * fraction, joint, p));
     return sqrt(largest_square);
@@ -331,7 +332,7 @@ static int has_tension_at_end(double force_before, double force_after) { return 
  * falls. Store which forces rise at the end. Without trends, because an evaluation fails, the search of forces is
  * omitted. Called after each accepted step.
  */
-static void record_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
+static void record_peaks_within_step(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force too small to be a peak */
     double force_begin[AT_LEAST_ONE(N_CLEARANCES)], force_end[AT_LEAST_ONE(N_CLEARANCES)];
@@ -368,7 +369,7 @@ static void record_inner_peaks(Integrator *run, Step *step, double fraction, con
         const int has_event_candidate = trends[i] != LOW, falls = has_event_candidate && trends[i] < 0;
         if (has_event_candidate && (((falls || reverses) && run->contacts.is_rising[i]) || has_inner_peak[i])
             && compute_dense_output(run, p, step) == 0)
-            record_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+            record_peak_within_step(run, step, fraction, i, force_begin[i], force_end[i], p);
         set_force_rising(run, i, !falls);
     }
 }

@@ -127,7 +127,7 @@ static double find_first_negative_stage(const Step *step, int event, double end_
  * of a gap. For a switching point or user event it is the end that find_first_negative_sample() returns. For others it
  * is a negative stage that the dense output confirms, or the end of the step.
  */
-static double find_bracket_end(Integrator *run, Step *step, int event, const Parameters *p, double *value)
+static double find_negative_end_of_bracket(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
     if (watched_index[event] >= 0)
         return find_first_negative_sample(run, step, watched_index[event], p, value);
@@ -227,7 +227,7 @@ static int find_event_candidate(Integrator *run, Step *step, int event, const Pa
     const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, event);
     const int candidates = is_gap ? bracket_gap_zero(run, step, event, p, max_fraction, &low, &end)
         : sampled ? bracket_force_zero(run, step, event, p, &low, &end) : 0;
-    const double high = sampled ? candidates * end.s : find_bracket_end(run, step, event, p, &value_high);
+    const double high = sampled ? candidates * end.s : find_negative_end_of_bracket(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
     if (watched_index[event] >= 0 && step->bracket_begin[watched_index[event]] > 0.0) {

@@ -20,7 +20,7 @@ typedef struct {
  * as of a velocity that a constraint holds at zero, neither end a step nor start a search.
  */
 typedef struct {
-    int known;
+    int is_known;
     double rounding[N_WATCHED], tolerance[N_WATCHED];
     double whole_lower[N_WATCHED]; /* lower bound of the function over the whole step */
 } EventUncertainties;
@@ -33,9 +33,9 @@ static void estimate_uncertainties(
     Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
 {
     double error[2 * N_X + 1], at_end[N_WATCHED];
-    if (uncertainties->known)
+    if (uncertainties->is_known)
         return;
-    uncertainties->known = 1;
+    uncertainties->is_known = 1;
     for (int k = 0; k < 2 * N_X; k++)
         error[k] = 1.0 / run->norm.weight[k];
     estimate_rounding_uncertainty(run, step->t, run->y, p, uncertainties->rounding);
@@ -199,7 +199,7 @@ typedef struct {
     const Parameters *p;
     DensePolynomial powers;
     double values_begin[N_WATCHED];
-    EventUncertainties uncertain;
+    EventUncertainties uncertainties;
 } WatchedStep;
 
 /*
@@ -215,14 +215,15 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
     const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
     int result = classify_zero(bounds, search->values_begin[index], *value_end, width, is_small);
     if (width == 1.0)
-        search->uncertain.whole_lower[index] = bounds.lo;
+        search->uncertainties.whole_lower[index] = bounds.lo;
     if (result > 0 && is_below_uncertainty(search->run, search->step, end, index, *value_end, search->p)) {
         *value_end = 0.0;
         result = classify_zero(bounds, search->values_begin[index], 0.0, width, is_small);
     }
     if (result < 0) {
-        estimate_uncertainties(search->run, search->step, &search->uncertain, search->p);
-        result = -!is_held_at_zero(&search->uncertain, index, bounds, search->values_begin[index], *value_end, width);
+        estimate_uncertainties(search->run, search->step, &search->uncertainties, search->p);
+        result =
+            -!is_held_at_zero(&search->uncertainties, index, bounds, search->values_begin[index], *value_end, width);
     }
     const int may_become_nan = bounds.may_be_undefined && event >= 0 && !search->run->events.is_nan_reported[event];
     return may_become_nan && !is_small ? -1 : result;
@@ -308,7 +309,7 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
     for (int i = 0; i < N_WATCHED; i++)
         step->bracket_begin[i] = step->bracket_end[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && are_zeros_excluded_by_stages(run, step, &search.uncertain, p))
+    if ((!step->method->stiff && are_zeros_excluded_by_stages(run, step, &search.uncertainties, p))
         || compute_dense_output(run, p, step))
         return;
     expand_dense_output(run, step, &search.powers);
