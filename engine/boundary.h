@@ -33,7 +33,7 @@ enum Status {
 enum RunPhase { NEW, BEGUN, OVER };
 
 /* Results of a call that advances the runs of a batch: all ended, lists are full, one ended, or more to do. */
-enum BatchResult { ALL_OVER, LISTS, RUN_OVER, GOES_ON };
+enum BatchResult { BATCH_ENDED, BUFFERS_FULL, RUN_ENDED, CALL_AGAIN };
 
 /* Contact code of a joint with play in a sample: an impact lasts until the penetration first stops growing. */
 enum ContactCode { CODE_FREE, CODE_IMPACT, CODE_CONTACT };
@@ -62,16 +62,16 @@ enum AuditCheck {
 #define AUDIT_FAILS 10.0
 
 /* Penetration in m below which surfaces of a joint with play do not count as touching. */
-#define SHALLOW 1e-13
+#define MIN_TOUCHING_PENETRATION 1e-13
 
 /* Slip speed in m/s below which friction may stick. */
-#define AT_REST 1e-9
+#define MAX_STICK_SPEED 1e-9
 
 /* Orders of the series of Taylor's method per factor e of its tolerance. */
-#define TAYLOR_EFFORT 0.7
+#define TAYLOR_ORDERS_PER_E_FOLD 0.7
 
 /* Tolerance of the method `auto` divided by that of its Taylor series, so that errors are at most those of dop853. */
-#define TAYLOR_STRICTNESS 10.0
+#define TAYLOR_TOLERANCE_RATIO 10.0
 
 /*
  * Mode of a dry_friction element: 0 stick, -1 or 1 the sign of its slip, MODE_HELD at rest by drives or other friction.

@@ -30,7 +30,7 @@ static inline long get_first_row(const Batch *batch, long i) { return batch->sam
  *   limiting_h_rho     of the method: h rho at which stability limits the steps
  *   unstable           h rho above which a step is rejected
  *   min_rho, max_rho   h rho below or above which a step speaks against its method
- *   max_contrary       number of such steps at which the method changes
+ *   max_opposing       number of such steps at which the method changes
  *   max_length         s: longest step whose error need not be measured
  *   max_ratio          largest ratio of the lengths of two successive steps that are not measured
  *   film_error         relative error of film forces that is the limit inside a step
@@ -39,7 +39,7 @@ static inline long get_first_row(const Batch *batch, long i) { return batch->sam
  *   gap, clearance     m, of each joint with play: error of the dense output of its gap; its radial clearance
  */
 #define STEP_LIMITS(Number) \
-    Number power, limiting_h_rho, unstable, min_rho, max_rho, max_contrary, max_length, max_ratio, film_error, \
+    Number power, limiting_h_rho, unstable, min_rho, max_rho, max_opposing, max_length, max_ratio, film_error, \
         peak_ratio, residual, gap[AT_LEAST_ONE(N_CLEARANCES)], clearance[AT_LEAST_ONE(N_CLEARANCES)];
 
 /* Limits of the steps of one run that lanes accept, and their largest number until the run needs a call. */
@@ -54,7 +54,7 @@ typedef struct {
 typedef struct {
     /* begin run i; candidates: n runs under way, -1: none; returns a status */
     int (*begin)(const Batch *batch, long i, const long *candidates, int n, void *run);
-    /* advance run i to its next step; returns GOES_ON, LISTS or RUN_OVER */
+    /* advance run i to its next step; returns CALL_AGAIN, BUFFERS_FULL or RUN_ENDED */
     int (*advance_single)(const Batch *batch, long i, int trial_result, void *run);
     /* limits of steps without a call; p: parameters of the run */
     void (*get_local_step_limits)(const void *run, const double *p, LocalStepLimits *limits);

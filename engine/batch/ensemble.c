@@ -7,16 +7,16 @@
 #include "../scene/start.h"
 
 /* Return whether the batch is ending; called as the poll of a cancellation token. */
-static int is_batch_ending(void *caller) { return *((const Batch *)caller)->ending; }
+static int is_batch_ending(void *context) { return *((const Batch *)context)->ending; }
 
 /*
- * Start the polling of a run's cancellation token: by the callback of the batch every batch->every seconds; if it has
- * none, every POLL_INTERVAL_S whether the batch is ending.
+ * Start the polling of a run's cancellation token: by the callback of the batch every batch->poll_interval seconds; if
+ * it has none, every POLL_INTERVAL_S whether the batch is ending.
  */
 static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 {
-    if (batch->ask)
-        start_polling(cancellation, batch->ask, batch->caller, batch->every);
+    if (batch->is_stop_requested)
+        start_polling(cancellation, batch->is_stop_requested, batch->context, batch->poll_interval);
     else
         start_polling(cancellation, is_batch_ending, (void *)batch, POLL_INTERVAL_S);
 }
@@ -70,17 +70,17 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
         y[k] = start[k];
     const StepRecord step_record = run->step_record; /* belongs to the thread, not to one run */
     gudgeon_run_start(run, batch->p_motion + i * batch->numbers, t0, y,
-        batch->remembered + i * AT_LEAST_ONE(N_DISCRETE));
+        batch->initial_discrete_states + i * AT_LEAST_ONE(N_DISCRETE));
     run->began = i + 1;
     gudgeon_run_record(run, step_record.rows, step_record.capacity);
     restore_compression_flags(run, batch->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, batch->stop);
     start_audit(run, batch->audit, batch->size[i]);
-    if (batch->trace)
-        start_envelope(run, (EnvelopeRow *)batch->trace + i * batch->trace_rows, batch->trace_rows);
+    if (batch->envelope)
+        start_envelope(run, (EnvelopeRow *)batch->envelope + i * batch->envelope_capacity, batch->envelope_capacity);
     start_batch_polling(batch, &run->cancellation);
     gudgeon_adaptive_setup(run, batch->choice, batch->automatic, batch->scale + i * AT_LEAST_ONE(2 * N_X),
-        batch->least + 2 * i, batch->fixed ? batch->step[i] : 0.0);
+        batch->min_size + 2 * i, batch->fixed ? batch->step[i] : 0.0);
     return 0;
 }
 
@@ -92,7 +92,7 @@ static void store_current_state_as_sample(const Batch *batch, long i, long k, In
 {
     const long row = get_first_row(batch, i) + k;
     store_sample(run, run->t, run->y, (const Parameters *)(batch->p_motion + i * batch->numbers), 0,
-        batch->y + row * N_S, batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
+        batch->y + row * N_S, batch->discrete_states + row * AT_LEAST_ONE(N_DISCRETE),
         batch->state + row * AT_LEAST_ONE(N_CLEARANCES));
 }
 
@@ -118,9 +118,9 @@ static int make_steps(const Batch *batch, long i, long max_steps, Integrator *ru
 {
     const double *p = batch->p_motion + i * batch->numbers, *t = get_sample_times(batch, i);
     const long row = get_first_row(batch, i), n = batch->n_requested[i];
-    double *y = batch->y + row * N_S, *latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE);
+    double *y = batch->y + row * N_S, *discrete_states = batch->discrete_states + row * AT_LEAST_ONE(N_DISCRETE);
     signed char *state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES);
-    const int status = gudgeon_adaptive_run(run, p, n, t, max_steps, y, latched, state, batch->done + i);
+    const int status = gudgeon_adaptive_run(run, p, n, t, max_steps, y, discrete_states, state, batch->done + i);
     batch->t_last[i] = run->t;
     return status;
 }
@@ -138,7 +138,8 @@ static void truncate_samples(const Batch *batch, long i, long k)
 
 /*
  * Store the current state as the last sample of run i, which replaces samples that are not earlier. After an event that
- * ends the run (status ENDED), samples within the resolution of the times are replaced too.
+ * ends the run (status ENDED), samples less than the resolution before it are replaced too: 32 DBL_EPSILON of the
+ * times, or at most 1e-11 s or 1e-10 of the duration.
  */
 static void store_last_sample(const Batch *batch, long i, int status, Integrator *run)
 {
@@ -158,17 +159,17 @@ static void store_last_sample(const Batch *batch, long i, int status, Integrator
  */
 static void end_run(const Batch *batch, long i, int status, Integrator *run)
 {
-    double *last = batch->last + i * N_S, latched[AT_LEAST_ONE(N_DISCRETE)];
+    double *last = batch->last + i * N_S, discrete_states[AT_LEAST_ONE(N_DISCRETE)];
     signed char state[AT_LEAST_ONE(N_CLEARANCES)];
     const long first_nonfinite = find_nonfinite_sample(batch, i);
-    gudgeon_run_sample(run, batch->p_motion + i * batch->numbers, last, latched, state);
-    report_audit(run, batch->audited + N_CHECKS * i, batch->audited_t + N_CHECKS * i,
-        batch->audited_where + N_CHECKS * i);
+    gudgeon_run_sample(run, batch->p_motion + i * batch->numbers, last, discrete_states, state);
+    report_audit(run, batch->audit_values + N_CHECKS * i, batch->audit_times + N_CHECKS * i,
+        batch->audit_locations + N_CHECKS * i);
     gudgeon_run_report(run, batch->t_last + i, batch->counts + N_COUNTS * i, batch->residuals + N_RESIDUALS * i,
         batch->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
-    report_progress(run, batch->gained + i, batch->paced + 2 * i, batch->ended + N_STEP_ENDS * i);
-    if (batch->trace)
-        batch->traced[i] = count_envelope_rows(run);
+    report_progress(run, batch->time_gain + i, batch->monitored_steps + 2 * i, batch->ended + N_STEP_ENDS * i);
+    if (batch->envelope)
+        batch->n_envelope_rows[i] = count_envelope_rows(run);
     if (first_nonfinite)
         truncate_samples(batch, i, first_nonfinite);
     else if (status == ENDED || status == STALLED || (status == STOPPED && batch->done[i] > 0))
@@ -190,10 +191,12 @@ static int has_unfetched_records(const Integrator *run)
 }
 
 /*
- * Integrate the runs *current to end - 1 of a batch, one after the other, in the memory `integrator`. Return ALL_OVER;
- * LISTS or RUN_OVER if contacts or events of run *current are to be fetched, and it continues or is over; GOES_ON after
- * `limit` steps. Call again, after RUN_OVER with the next run. If the batch is ending, current runs end at once and no
- * run begins.
+ * Integrate the runs *current to end - 1 of a batch, one after the other, in the memory `integrator`. If the batch is
+ * ending, current runs end at once and no run begins. Return one of
+ *   BATCH_ENDED: all these runs have ended;
+ *   BUFFERS_FULL: fetch contacts, events and recorded steps of run *current, which then continues;
+ *   RUN_ENDED: fetch the rest of them; run *current is over, call again with the next run;
+ *   CALL_AGAIN: the run has made `limit` steps and continues.
  */
 int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, long end)
 {
@@ -214,12 +217,12 @@ int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, lo
         batch->seconds[i] += read_clock() - before;
         const int is_over = status != EVENTS_FULL && (status || batch->done[i] == batch->n_requested[i]);
         if (!is_over && !find_nonfinite_sample(batch, i))
-            return status ? LISTS : GOES_ON;
+            return status ? BUFFERS_FULL : CALL_AGAIN;
         end_run(batch, i, status, run);
         if (has_unfetched_records(run))
-            return RUN_OVER;
+            return RUN_ENDED;
     }
-    return ALL_OVER;
+    return BATCH_ENDED;
 }
 #if HAS_LANES
 
@@ -235,16 +238,17 @@ static Samples get_sample_arrays(const Batch *batch, long i)
     const long row = get_first_row(batch, i);
     return (Samples){
         .n = batch->n_requested[i], .done = batch->done + i, .t = get_sample_times(batch, i), .y = batch->y + row * N_S,
-        .discrete_states = batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
+        .discrete_states = batch->discrete_states + row * AT_LEAST_ONE(N_DISCRETE),
         .contact_codes = batch->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
 }
 
 /*
- * Complete the last step of run i and prepare its next one, run->control.attempt, for a library of lanes. trial_result:
- * what the lanes did of run->step. NOT_TRIED: it is tried here; STAGES_FAILED: its stages were not found; NO_TRIAL:
- * there is none. A rejected step leads to the next attempt. Return GOES_ON, LISTS if the lists of contacts or events
- * are full, or RUN_OVER after its end.
+ * Complete the last step of run i and open the first attempt at its next one, run->control.attempt, for a library of
+ * lanes. trial_result: what the lanes did of run->step. NOT_TRIED: it is tried here; TRIED: the lanes computed it;
+ * STAGES_FAILED: its stages were not found; NO_TRIAL: there is none. After a rejected step the next attempt is open,
+ * shorter or by the other method. Return CALL_AGAIN if an attempt is open, BUFFERS_FULL if the lists of contacts or
+ * events are full, or RUN_ENDED after end_run().
  */
 static int advance_single_run(const Batch *batch, long i, int trial_result, void *integrator)
 {
@@ -259,18 +263,18 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
         const int trial_status = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
             : try_step(run, p, &run->step);
         if (!accept_or_retry_step(run, trial_status, p, &run->step, &status))
-            return GOES_ON;
+            return CALL_AGAIN;
         close_attempt(run);
         if (!status)
             status = accept_step(run, p, &samples);
     }
     if (!status && begin_step(run, 0, p, &samples, &status))
-        return GOES_ON;
+        return CALL_AGAIN;
     batch->t_last[i] = run->t;
     if (status == EVENTS_FULL)
-        return LISTS;
+        return BUFFERS_FULL;
     end_run(batch, i, status, run);
-    return RUN_OVER;
+    return RUN_ENDED;
 }
 
 #include "local_step_limits.c"

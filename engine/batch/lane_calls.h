@@ -5,8 +5,9 @@
 #pragma GCC visibility push(protected)
 
 int gudgeon_lane_count(void);
-void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const *run, long n, const long *indices);
-int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number);
+void gudgeon_kinematic_lanes(
+    const void *batch, const void *scalar_functions, void *const *run, long n, const long *indices);
+int gudgeon_lanes(const void *batch, const void *scalar_functions, void *const *run, long *run_number);
 
 #pragma GCC visibility pop
 

@@ -3,8 +3,13 @@
  * tests whether a step needs its run, and all changes that an accepted step makes.
  */
 
-/* Load the limits of the steps of a run, and what it keeps of its last steps, into lane k. */
-static void load_step_data(LaneLocalSteps *local_steps, int k, const LocalStepLimits *limits, const Integrator *run)
+/*
+ * Load into lane k the step limits of a run and its controller state: length before limits, last error, observed order,
+ * last length, count of steps against the method. Also its largest constraint residuals, its record of film errors, its
+ * peaks, and scales of switching functions. The count of evaluations starts at 0.
+ */
+static void load_controller_state(
+    LaneLocalSteps *local_steps, int k, const LocalStepLimits *limits, const Integrator *run)
 {
     for (size_t j = 0; j < sizeof limits->limits / sizeof(double); j++)
         ((Lanes *)&local_steps->limits)[j][k] = ((const double *)&limits->limits)[j];
@@ -12,8 +17,8 @@ static void load_step_data(LaneLocalSteps *local_steps, int k, const LocalStepLi
     local_steps->error_before[k] = run->control.error_before;
     local_steps->observed_order[k] = run->control.observed_order;
     local_steps->last_step[k] = run->control.last_step;
-    local_steps->n_contrary[k] = run->choice.n_contrary_steps;
-    local_steps->contrary_length[k] = run->choice.contrary_length;
+    local_steps->n_opposing[k] = run->choice.n_opposing_steps;
+    local_steps->opposing_length[k] = run->choice.opposing_length;
     local_steps->phi_max[k] = run->residuals.phi_max;
     local_steps->phi_dot_max[k] = run->residuals.phi_dot_max;
     local_steps->evaluations[k] = 0.0;
@@ -42,10 +47,10 @@ static LaneBits find_lanes_without_events(
 {
     LaneBits found = ~(LaneBits){0};
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        found &= ~((event_functions[j] < 0.0) | (step->lowest[j] < 0.0));
+        found &= ~((event_functions[j] < 0.0) | (step->min_event_value[j] < 0.0));
     for (int i = 0; i < N_CLEARANCES; i++) {
         const LaneClearance *begin = &lanes->rhs.clearance[i], *end = &step->rhs.clearance[i];
-        found &= compute_least_gap(step, i, -begin->delta, -end->delta, begin->deltadot, end->deltadot)
+        found &= compute_gap_lower_bound(step, i, -begin->delta, -end->delta, begin->deltadot, end->deltadot)
             > local_steps->limits.gap[i];
     }
     return found;
@@ -72,8 +77,8 @@ static Lanes find_largest_stage_force(const LaneStep *step, int i)
 static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     const LaneStep *step, const LaneParameters *p, LaneBits *found)
 {
-    const int stages = method == BY_RADAU5 ? 3 : 5;
-    const double fraction = method == BY_RADAU5 ? RADAU5_ERROR_FRACTION : RADAU9_ERROR_FRACTION;
+    const int stages = method == METHOD_RADAU5 ? 3 : 5;
+    const double fraction = method == METHOD_RADAU5 ? RADAU5_ERROR_FRACTION : RADAU9_ERROR_FRACTION;
     Lanes change[N_Y], dense[RADAU_MAX_STAGES][N_Y], y[N_Y], dy[N_Y], rate[N_Y];
     const Lanes *values[RADAU_MAX_STAGES], t = step->t + fraction * step->h;
     LaneRhsOutputs rhs;
@@ -81,7 +86,7 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
         change[i] = step->y[i] - lanes->y[i];
     for (int s = 0; s < stages; s++)
         values[s] = s < stages - 1 ? step->k[s] : change;
-    compute_collocation_polynomial(method == BY_RADAU5 ? &RADAU5 : &RADAU9, stages, values, dense);
+    compute_collocation_polynomial(method == METHOD_RADAU5 ? &RADAU5 : &RADAU9, stages, values, dense);
     evaluate_collocation_polynomial(lanes->y, (const Lanes (*)[N_Y])dense, fraction, y);
     lanes->discrete.needs_scalar = (LaneBits){0};
     project_onto_constraints(lanes, t, y, NULL, p);
@@ -100,7 +105,7 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
  * Check the error of film forces of a step by radau5 or radau9 in the lanes `found`, as accept_or_retry_step() does,
  * and return the error norm of the step, which is at least that of the films where these were measured. Lanes that do
  * not accept the step are removed from `found`. is_measured: set to the lanes in which film_error is the measured
- * error.
+ * error, in multiples of its limit. Nothing is checked without films or for other methods.
  */
 static Lanes check_film_errors(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     const LaneStep *step, const LaneParameters *p, LaneBits *found, LaneBits *is_measured, Lanes *film_error)
@@ -108,17 +113,17 @@ static Lanes check_film_errors(const LaneLocalSteps *local_steps, LaneIntegrator
     Lanes error = step->error;
     *is_measured = (LaneBits){0};
 #if IMPLICIT_STAGES
-    if (!has_films() || method < BY_RADAU5)
+    if (!has_films() || method < METHOD_RADAU5)
         return error;
     const Lanes end_error = step->film_error / local_steps->limits.film_error;
     *found &= ~(end_error > 1.0);
-    *is_measured = *found & ~is_film_measured(end_error, step->h, local_steps->film_error, local_steps->film_h,
+    *is_measured = *found & ~is_last_film_error_valid(end_error, step->h, local_steps->film_error, local_steps->film_h,
         local_steps->film_steps);
     if (any_of(*is_measured)) {
         LaneBits is_known = ~(LaneBits){0};
         *film_error = measure_lane_film_error(local_steps, lanes, method, step, p, &is_known);
         error = select_value(*is_measured, lanes_max_of(error, *film_error), error);
-        *found &= ~*is_measured | (is_known & (error <= lanes->control.accept));
+        *found &= ~*is_measured | (is_known & (error <= lanes->control.max_accepted_error));
     }
 #else
     (void)local_steps, (void)lanes, (void)method, (void)p, (void)found, (void)film_error;
@@ -132,7 +137,7 @@ static Lanes check_film_errors(const LaneLocalSteps *local_steps, LaneIntegrator
  * it, are removed. Return the mask of the lanes that evaluated the forces just after the step. is_rising: set to
  * whether the force of each joint rises at the end.
  */
-static LaneBits exclude_inner_peaks(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
+static LaneBits exclude_peaks_within_step(const LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     const LaneStep *step, const LaneParameters *p, LaneBits *found, LaneBits *is_rising)
 {
     LaneBits is_candidate[AT_LEAST_ONE(N_CLEARANCES)], has_trend[AT_LEAST_ONE(N_CLEARANCES)], needs_trend = {0};
@@ -150,7 +155,7 @@ static LaneBits exclude_inner_peaks(const LaneLocalSteps *local_steps, LaneInteg
         has_trend[i] = force_end < 1e-6 * force_begin;
         needs_trend |= is_candidate[i] & ~has_trend[i];
     }
-    if (method < BY_RODAS5P)
+    if (method < METHOD_RODAS5P)
         *found &= ~needs_trend; /* the stages of an explicit step show the trend */
     needs_trend &= *found;
     if (any_of(needs_trend)) {
@@ -176,7 +181,10 @@ static LaneBits exclude_inner_peaks(const LaneLocalSteps *local_steps, LaneInteg
     return needs_trend;
 }
 
-/* Update the peaks of all joints with those at the end of the step in the lanes `accepted`. */
+/*
+ * Update, in the lanes `accepted`, the largest eccentricity and the largest force of each joint, with its time, by
+ * their values at the end of the step, time t (s). is_rising: whether each force rises there; stored for the next step.
+ */
 static void update_lane_peaks(LaneLocalSteps *local_steps, const LaneStep *step, LaneBits accepted, Lanes t,
     const LaneBits *is_rising)
 {
@@ -191,7 +199,10 @@ static void update_lane_peaks(LaneLocalSteps *local_steps, const LaneStep *step,
     }
 }
 
-/* Make the end of the step the state of the lanes `accepted`, at time t (s), and update all scales of tolerances. */
+/*
+ * Make the end of the step the state of the lanes `accepted`, at time t (s), and update speeds, energy scale and error
+ * weights. The state at the beginning is stored as start of the previous step for the stage predictor.
+ */
 static void move_to_step_end(
     LaneLocalSteps *local_steps, LaneIntegrator *lanes, const LaneStep *step, LaneBits accepted, Lanes t)
 {
@@ -200,8 +211,8 @@ static void move_to_step_end(
     local_steps->last_step = select_value(accepted, t - lanes->t, local_steps->last_step);
     for (int j = 0; j < N_Y; j++) {
 #if IMPLICIT_STAGES
-        lanes->newton.before_y[j] = select_value(accepted, lanes->y[j], lanes->newton.before_y[j]);
-        lanes->newton.before_dy[j] = select_value(accepted, lanes->dy[j], lanes->newton.before_dy[j]);
+        lanes->newton.previous_y[j] = select_value(accepted, lanes->y[j], lanes->newton.previous_y[j]);
+        lanes->newton.previous_dy[j] = select_value(accepted, lanes->dy[j], lanes->newton.previous_dy[j]);
 #endif
         lanes->y[j] = select_value(accepted, step->y[j], lanes->y[j]);
         lanes->dy[j] = select_value(accepted, step->dy[j], lanes->dy[j]);
@@ -221,9 +232,10 @@ static void move_to_step_end(
 }
 
 /*
- * Set the lengths of the next steps in the lanes `accepted` as choose_next_length() and open_attempt() do, and the
- * numbers from which the step-size control and the choice of the method continue. step_error: error norm of the step;
- * *h: lengths of the next steps, s.
+ * Choose the length *h (s) of the next step in the lanes `accepted`, as choose_next_length() and open_attempt() do:
+ * from the error norm of the step (`step_error`), and not beyond the next contact of an approaching joint or the end of
+ * the run. Also store what the controller of later steps needs: last error, observed order, length before these two
+ * limits, mean length, h rho.
  */
 static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrator *lanes, const LaneStep *step,
     Lanes step_error, LaneBits accepted, Lanes *h)
@@ -253,10 +265,10 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
  * Return the number of steps against the method of each lane after this step (switch_method_after_step()): 0 where it
  * does not speak against it.
  */
-static Lanes count_contrary_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
+static Lanes count_opposing_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
 {
     const LaneBits is_against = (h_rho < local_steps->limits.min_rho) | (h_rho > local_steps->limits.max_rho);
-    return select_value(is_against, local_steps->n_contrary + 1.0, broadcast(0.0));
+    return select_value(is_against, local_steps->n_opposing + 1.0, broadcast(0.0));
 }
 
 /*
@@ -274,19 +286,19 @@ static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegra
     LaneBits accepted = requested & local_steps->may_accept & step->is_accepted;
     if (!any_of(accepted))
         return accepted;
-    const Lanes n_contrary = count_contrary_steps(local_steps, h_rho);
+    const Lanes n_opposing = count_opposing_steps(local_steps, h_rho);
     const Lanes phi_max = lanes_max_of(step->residual[0], local_steps->phi_max);
     evaluate_lane_event_functions(lanes, &step->rhs, event_functions);
     accepted &= find_unsampled_steps(local_steps, lanes, step, t) & (step->h < local_steps->limits.max_length)
         & (step->h <= local_steps->limits.max_ratio * local_steps->last_step)
-        & ~(h_rho > local_steps->limits.unstable) & (n_contrary < local_steps->limits.max_contrary)
+        & ~(h_rho > local_steps->limits.unstable) & (n_opposing < local_steps->limits.max_opposing)
         & (phi_max <= local_steps->limits.residual)
         & find_lanes_without_events(local_steps, lanes, step, event_functions);
     if (!any_of(accepted))
         return accepted;
     const Lanes error =
         check_film_errors(local_steps, lanes, method, step, p, &accepted, &is_measured, &film_error);
-    LaneBits has_looked_ahead = exclude_inner_peaks(local_steps, lanes, method, step, p, &accepted, is_rising);
+    LaneBits has_looked_ahead = exclude_peaks_within_step(local_steps, lanes, method, step, p, &accepted, is_rising);
     has_looked_ahead &= accepted;
     is_measured &= accepted;
     local_steps->film_error = select_value(is_measured, film_error, local_steps->film_error);
@@ -297,9 +309,9 @@ static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegra
     local_steps->evaluations += select_value(accepted, evaluations, broadcast(0.0))
         + select_value(has_looked_ahead, broadcast(1.0), broadcast(0.0))
         + select_value(is_measured, broadcast(1.0), broadcast(0.0));
-    local_steps->n_contrary = select_value(accepted, n_contrary, local_steps->n_contrary);
-    local_steps->contrary_length =
-        select_value(accepted & (n_contrary == 1.0), step->h, local_steps->contrary_length);
+    local_steps->n_opposing = select_value(accepted, n_opposing, local_steps->n_opposing);
+    local_steps->opposing_length =
+        select_value(accepted & (n_opposing == 1.0), step->h, local_steps->opposing_length);
     local_steps->phi_max = select_value(accepted, phi_max, local_steps->phi_max);
     local_steps->phi_dot_max = select_value(accepted,
         lanes_max_of(step->residual[1], local_steps->phi_dot_max), local_steps->phi_dot_max);
@@ -318,24 +330,29 @@ static void scatter_rhs(const LaneRhsOutputs *lane_rhs, int k, RhsOutputs *rhs);
 
 #if IMPLICIT_STAGES
 /*
- * Copy the beginning of the last step accepted in lane k, for guesses of the next stages, to its run. Then update the
- * run's history for the present step, as gather_history() does: that step has been tried already.
+ * Copy the beginning of the last step accepted in lane k, from which guesses of the next stages are extrapolated, to
+ * its run. Then move the run's predictor to the present step, as gather_stage_predictor() does: that step has been
+ * tried already.
  */
-static void flush_history(const LaneLocalSteps *local_steps, const LaneIntegrator *lanes, int k, Integrator *run)
+static void flush_stage_predictor(
+    const LaneLocalSteps *local_steps, const LaneIntegrator *lanes, int k, Integrator *run)
 {
     run->newton.convergence_rate = local_steps->convergence_rate[k];
-    run->newton.seen_steps = run->counts.steps - 1;
-    run->newton.now.t = local_steps->begin[k];
+    run->newton.n_recorded_steps = run->counts.steps - 1;
+    run->newton.current_start.t = local_steps->begin[k];
     for (int j = 0; j < N_Y; j++) {
-        run->newton.now.y[j] = lanes->newton.before_y[j][k];
-        run->newton.now.dy[j] = lanes->newton.before_dy[j][k];
+        run->newton.current_start.y[j] = lanes->newton.previous_y[j][k];
+        run->newton.current_start.dy[j] = lanes->newton.previous_dy[j][k];
     }
-    update_iteration_history(run);
+    update_stage_predictor(run);
 }
 #endif
 
-/* Copy the peaks and the records of lane k to its run. */
-static void flush_records(const LaneLocalSteps *local_steps, int k, Integrator *run)
+/*
+ * Copy the peaks of the joints, the largest constraint residuals and, with an audit, the scales of switching functions
+ * of lane k to its run. Its counts of steps that ended on a wrong branch become 0.
+ */
+static void flush_peaks_and_residuals(const LaneLocalSteps *local_steps, int k, Integrator *run)
 {
     run->residuals.phi_max = local_steps->phi_max[k];
     run->residuals.phi_dot_max = local_steps->phi_dot_max[k];
@@ -352,14 +369,16 @@ static void flush_records(const LaneLocalSteps *local_steps, int k, Integrator *
 }
 
 /*
- * Copy the steps accepted in lane k to its run, with their counts, and open the run's next attempt with length h (s).
- * Copies nothing if the lane has accepted no step since it was loaded.
+ * Copy the steps accepted in lane k to its run: state, counts, peaks, residuals, film-error record, method counters and
+ * controller state. Then open the run's next attempt with length h (s) by the same method. The run's linearization is
+ * discarded. Copies nothing if the lane has accepted no step since it was loaded; the lane is empty afterwards in any
+ * case.
  */
 static void flush_lane_local_steps(
     LaneLocalSteps *local_steps, const LaneIntegrator *lanes, int k, double h, Integrator *run)
 {
     const long steps = local_steps->steps[k];
-    const int method = run->control.attempt.lane, is_stiff = method >= BY_RODAS5P;
+    const int method = run->control.attempt.lane_method, is_stiff = method >= METHOD_RODAS5P;
     local_steps->has_state[k] = 0;
     if (!steps)
         return;
@@ -369,23 +388,23 @@ static void flush_lane_local_steps(
     run->counts.stiff_steps += is_stiff ? steps : 0;
     run->counts.jacobians += is_stiff ? steps - !!run->newton.ready : 0;
     run->newton.ready = 0;
-    flush_records(local_steps, k, run);
+    flush_peaks_and_residuals(local_steps, k, run);
     run->films.error = local_steps->film_error[k];
     run->films.h = local_steps->film_h[k];
     run->films.steps = run->counts.steps - (long)local_steps->film_steps[k];
     run->choice.h_rho = local_steps->h_rho[k];
     run->choice.mean_length[is_stiff] = local_steps->mean_length[k];
-    run->choice.n_contrary_steps = (int)local_steps->n_contrary[k];
-    run->choice.contrary_length = local_steps->contrary_length[k];
+    run->choice.n_opposing_steps = (int)local_steps->n_opposing[k];
+    run->choice.opposing_length = local_steps->opposing_length[k];
     run->control.h = local_steps->h[k];
     run->control.error_before = local_steps->error_before[k];
     run->control.observed_order = local_steps->observed_order[k];
     run->control.last_step = local_steps->last_step[k];
     run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
-        .end = local_steps->t_end[k], .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1,
-        .lane = method, .film_error_norm = INFINITY};
+        .end = local_steps->t_end[k], .time_magnitude = compute_time_scale(local_steps, lanes)[k], .is_open = 1,
+        .lane_method = method, .film_error_norm = INFINITY};
 #if IMPLICIT_STAGES
-    if (method >= BY_RADAU5)
-        flush_history(local_steps, lanes, k, run);
+    if (method >= METHOD_RADAU5)
+        flush_stage_predictor(local_steps, lanes, k, run);
 #endif
 }

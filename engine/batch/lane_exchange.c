@@ -14,7 +14,7 @@ enum { MAX_GROUP_RUNS = 4 * LANES };
 /* Several current runs in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *batch;
-    const SingleRunFunctions *single_run;
+    const SingleRunFunctions *scalar_functions;
     Integrator *run[MAX_GROUP_RUNS];
     long run_number[MAX_GROUP_RUNS]; /* -1: free */
     int next_method[MAX_GROUP_RUNS]; /* method of the next step of each run; -1: none */
@@ -55,12 +55,13 @@ static void load_lane_parameters(LaneGroup *group, int k, int i)
 
 #if IMPLICIT_STAGES && !LANE_SERIES
 /*
- * Load the data of a run that methods with iterated stages (Radau IIA) need into lane k: its iteration history, from
- * which first guesses of the stages follow, and the scales of film forces.
+ * Move the stage predictor of a run to its present step and load it into lane k: the start of the previous step and its
+ * distance, from which first guesses of iterated stages (Radau IIA) are extrapolated. Also load the scales of film
+ * forces and the smallest sizes of the state.
  */
-static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
+static void gather_stage_predictor(LaneIntegrator *lanes, int k, Integrator *run)
 {
-    update_iteration_history(run);
+    update_stage_predictor(run);
     lanes->newton.last_h[k] = run->newton.last_h;
     lanes->newton.convergence_rate[k] = run->newton.convergence_rate;
     lanes->newton.film_force_tol[k] = run->newton.film_force_tol;
@@ -69,8 +70,8 @@ static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
     for (int kind = 0; kind < 2; kind++)
         lanes->norm.min_size[kind][k] = run->norm.min_size[kind];
     for (int j = 0; j < N_Y; j++) {
-        lanes->newton.before_y[j][k] = run->newton.before_y[j];
-        lanes->newton.before_dy[j][k] = run->newton.before_dy[j];
+        lanes->newton.previous_y[j][k] = run->newton.previous_y[j];
+        lanes->newton.previous_dy[j][k] = run->newton.previous_dy[j];
     }
 }
 #endif
@@ -90,20 +91,20 @@ static void gather_state(LaneGroup *group, int k, int is_requested)
     group->local_steps.may_accept[k] = 0;
     if (is_requested)
         load_lane_local_steps(&group->local_steps, lanes, k, group->batch, group->run_number[group->loaded_run[k]],
-            group->single_run, run);
+            group->scalar_functions, run);
 #else
     (void)is_requested;
 #endif
     group->h[k] = run->control.attempt.h;
     lanes->t[k] = run->t;
-    lanes->control.accept[k] = run->control.accept;
+    lanes->control.max_accepted_error[k] = run->control.max_accepted_error;
     for (int j = 0; j < N_Y; j++) {
         lanes->y[j][k] = run->y[j];
         lanes->norm.weight[j][k] = run->norm.weight[j];
     }
 #if LANE_SERIES
     for (int j = 0; j < N_Y; j++)
-        lanes->series.lost[j][k] = run->series.lost[j];
+        lanes->series.rounding_errors[j][k] = run->series.rounding_errors[j];
     lanes->series.order = run->series.order;
     lanes->series.strictness = run->series.strictness;
     lanes->series.defect_weight = run->series.defect_weight;
@@ -114,8 +115,8 @@ static void gather_state(LaneGroup *group, int k, int is_requested)
     for (int i = 0; i < N_LOOPS; i++)
         lanes->rhs.lambda[i][k] = run->rhs.lambda[i];
 #if IMPLICIT_STAGES
-    if (run->control.attempt.lane >= BY_RADAU5)
-        gather_history(lanes, k, run);
+    if (run->control.attempt.lane_method >= METHOD_RADAU5)
+        gather_stage_predictor(lanes, k, run);
 #endif
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -167,8 +168,8 @@ static void scatter_rhs(const LaneRhsOutputs *lane_rhs, int k, RhsOutputs *rhs)
 /*
  * Copy an accepted step of lane k to a single run's step, as that run itself would have computed it: the end state and
  * its rates, right-hand side, rates of contacts, nodes, minima of event functions, bounds of the state. Stages, values
- * at stages and the dense output stay in the lane: the step points to them with the stride LANES. Clears step->passed.
- * Time, length and error of the step are set by scatter_result(), the caller.
+ * at stages and the dense output stay in the lane: the step points to them with the stride LANES. Clears
+ * step->is_ignored. Time, length and error of the step are set by scatter_result(), the caller.
  */
 static void scatter_step(const LaneGroup *group, int k, Step *step)
 {
@@ -189,12 +190,12 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
     for (int s = 0; s < lane_step->n_stored_stages; s++)
         step->node[s] = lane_step->node[s];
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        step->lowest[j] = lane_step->lowest[j][k];
+        step->min_event_value[j] = lane_step->min_event_value[j][k];
     for (int j = 0; j < N_SWITCHES; j++)
-        step->passed[j] = 0;
+        step->is_ignored[j] = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = lane_step->rate[i][0][k];
-        step->rate[i][1] = lane_step->rate[i][1][k];
+        step->gap_rate_range[i][0] = lane_step->gap_rate_range[i][0][k];
+        step->gap_rate_range[i][1] = lane_step->gap_rate_range[i][1][k];
     }
     for (int j = 0; j < 2 * N_X && N_WATCHED > 0; j++) {
         step->min_state[j] = lane_step->min_state[j][k];
@@ -205,10 +206,11 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
 
 #if LANE_SERIES
 /*
- * Copy the counts, limits and rounding errors of a series step in lane k to its run; the terms of the series stay in
- * the lane, to which the run points. `method` is not used.
+ * Add the evaluations of a trial step by `method` in lane k to the counts of its run, as the run itself would have
+ * counted them. Implicit methods count one Jacobian too, unless one was stored, and mark it as stored in the lane
+ * (newton.ready). With iterated stages the convergence rate of Newton's method is copied.
  */
-static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
+static void scatter_trial_counts(const LaneGroup *group, int k, int method, Integrator *run)
 {
     (void)method;
     run->counts.evaluations += !run->series.ready;
@@ -216,23 +218,24 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
     run->series.lane = (const double *)group->integrator.series.terms + k;
     run->series.lanes = LANES;
     for (int j = 0; j < N_Y; j++)
-        run->series.next_lost[j] = group->integrator.series.next_lost[j][k];
+        run->series.end_rounding_errors[j] = group->integrator.series.end_rounding_errors[j][k];
     run->series.max_step = group->integrator.series.max_step[k];
     run->control.attempt.h = group->step.h[k];
 }
 #else
 /*
- * Add the evaluations and Jacobians of a trial step by `method` in lane k to the counts of its run, as the run itself
- * would have counted them. Implicit methods also copy the convergence rate of Newton's method.
+ * Copy the count, the longest valid length and the rounding errors of a series step in lane k to its run. The terms of
+ * the series stay in the lane: run->series points to them with the stride LANES. The attempt's length becomes that of
+ * the step. `method` is not used.
  */
-static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
+static void scatter_trial_counts(const LaneGroup *group, int k, int method, Integrator *run)
 {
     run->counts.evaluations += (long)count_trial_evaluations(&group->integrator, method)[k];
 #if IMPLICIT_STAGES
-    if (method >= BY_RADAU5)
+    if (method >= METHOD_RADAU5)
         run->newton.convergence_rate = group->integrator.newton.convergence_rate[k];
 #endif
-    if (method >= BY_RODAS5P && !run->newton.ready) {
+    if (method >= METHOD_RODAS5P && !run->newton.ready) {
         run->counts.jacobians++;
         run->newton.ready = IN_LANE;
     }
@@ -251,11 +254,12 @@ static void scatter_result(const LaneGroup *group, int k, int method)
     step->h = group->step.h[k];
     step->error = group->step.error[k];
     step->dense_ready = 0;
-    scatter_trial(group, k, method, run);
+    scatter_trial_counts(group, k, method, run);
 #if LANE_SERIES
     const int counts_end = 1;
 #else
-    const int counts_end = group->step.is_accepted[k] || method == BY_DOPRI5; /* its error needs the rates at the end */
+    /* the error of dopri5 needs the rates at the end */
+    const int counts_end = group->step.is_accepted[k] || method == METHOD_DOPRI5;
 #endif
     run->counts.evaluations += counts_end; /* a series may be rejected by its end only */
     if (!group->step.is_accepted[k])

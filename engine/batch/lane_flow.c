@@ -10,15 +10,15 @@
 enum { MIN_REPORTED = MAX_GROUP_RUNS / LANES };
 
 /*
- * Store the method that the group's run i needs next, after a call for that run returned `result`. After RUN_OVER its
- * entry becomes free. Return whether Python must be called: unless `result` is GOES_ON.
+ * Store the method that the group's run i needs next, after a call for that run returned `result`. After RUN_ENDED its
+ * entry becomes free. Return whether Python must be called: unless `result` is CALL_AGAIN.
  */
 static int record_run_result(LaneGroup *group, int i, int result)
 {
-    if (result == RUN_OVER)
+    if (result == RUN_ENDED)
         group->run_number[i] = -1;
-    group->next_method[i] = result == RUN_OVER ? -1 : group->run[i]->control.attempt.lane;
-    return result != GOES_ON;
+    group->next_method[i] = result == RUN_ENDED ? -1 : group->run[i]->control.attempt.lane_method;
+    return result != CALL_AGAIN;
 }
 
 /* Copy the steps that the lane of run i of the group accepted itself to that run, before it is used. */
@@ -35,32 +35,33 @@ static void flush_lane(LaneGroup *group, int i)
 
 /*
  * Advance run i of the group to its next attempt at a step, by completing the last one, or trying it first.
- * trial_result: what the lanes did of that step (NOT_TRIED, TRIED, STAGES_FAILED). *lists_full is set if the run's
+ * trial_result: what the lanes did of that step (NOT_TRIED, TRIED, STAGES_FAILED). *buffers_full is set if the run's
  * lists of contacts or events are full. Return whether Python must be called.
  */
-static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *lists_full)
+static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *buffers_full)
 {
     const int result =
-        group->single_run->advance_single(group->batch, group->run_number[i], trial_result, group->run[i]);
-    *lists_full |= result == LISTS;
+        group->scalar_functions->advance_single(group->batch, group->run_number[i], trial_result, group->run[i]);
+    *buffers_full |= result == BUFFERS_FULL;
     return record_run_result(group, i, result);
 }
 
-/* Return whether the next step of run i of the group is by this method (BY_DOP853, ...). */
+/* Return whether the next step of run i of the group is by this method (METHOD_DOP853, ...). */
 static int needs_method(const LaneGroup *group, int i, int method) { return group->next_method[i] == method; }
 
 /*
- * Count, for each method, the lanes that have a run whose next step is by that method (count, LANE_KINDS of them). Run
- * i belongs to lane i % LANES. Methods that this library lacks count 0: runs make their steps themselves.
+ * Count, for each method, the lanes that have a run whose next step is by that method (count, N_LANE_METHODS of them).
+ * Run i belongs to lane i % LANES; a lane with several such runs counts once. Methods that this library lacks count 0:
+ * runs make their steps themselves.
  */
 static void count_lanes_of_methods(const LaneGroup *group, int *count)
 {
-    unsigned char has_lane[LANE_KINDS + 1][LANES] = {0}; /* the row after the last: runs without a next step */
+    unsigned char has_lane[N_LANE_METHODS + 1][LANES] = {0}; /* the row after the last: runs without a next step */
     for (int i = 0; i < MAX_GROUP_RUNS; i++)
-        has_lane[group->next_method[i] < 0 ? LANE_KINDS : group->next_method[i]][i % LANES] = 1;
-    for (int method = 0; method < LANE_KINDS; method++) {
+        has_lane[group->next_method[i] < 0 ? N_LANE_METHODS : group->next_method[i]][i % LANES] = 1;
+    for (int method = 0; method < N_LANE_METHODS; method++) {
         count[method] = 0;
-        for (int k = 0; k < LANES && (method == BY_TAYLOR) == LANE_SERIES; k++)
+        for (int k = 0; k < LANES && (method == METHOD_TAYLOR) == LANE_SERIES; k++)
             count[method] += has_lane[method][k];
     }
 }
@@ -95,7 +96,7 @@ static int has_event_in_fixed_step(const LaneGroup *group, int k)
         return 0;
     evaluate_lane_event_functions(&group->integrator, &group->step.rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        has_event |= event_functions[j][k] < 0.0 || group->step.lowest[j][k] < 0.0;
+        has_event |= event_functions[j][k] < 0.0 || group->step.min_event_value[j][k] < 0.0;
 #else
     (void)group, (void)k;
 #endif
@@ -106,10 +107,10 @@ static int has_event_in_fixed_step(const LaneGroup *group, int k)
  * Try one step by `method` of one run in each lane, and advance those runs to their next steps. Lanes without such a
  * run are computed, but ignored. Steps without events or other actions of the scalar code are accepted in the lane. A
  * step that fails in a lane or contains an event is made by the scalar code, in advance_run_to_next_step(). Return the
- * number of runs that Python must be called for. *lists_full is set to 1 if a run has no room for further contacts,
+ * number of runs that Python must be called for. *buffers_full is set to 1 if a run has no room for further contacts,
  * events or recorded steps: Python must fetch them first.
  */
-static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
+static int try_lane_steps(LaneGroup *group, int method, int *buffers_full)
 {
     int n_reported = 0, requested[LANES];
     LaneBits local_steps = {0}, is_requested = {0};
@@ -118,7 +119,7 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
         is_requested[k] = -requested[k];
         gather_state(group, k, requested[k]);
     }
-    try_lanes(&group->integrator, method, group->h, &group->p, &group->step);
+    try_step_in_lanes(&group->integrator, method, group->h, &group->p, &group->step);
 #if LANE_LOCAL_STEPS
     local_steps = accept_lane_local_steps(
         &group->local_steps, &group->integrator, method, is_requested, &group->step, &group->p, &group->h);
@@ -133,7 +134,7 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
         if (!needs_single_run)
             scatter_result(group, k, method);
         const int trial = needs_single_run ? NOT_TRIED : group->step.has_no_stages[k] ? STAGES_FAILED : TRIED;
-        n_reported += advance_run_to_next_step(group, group->loaded_run[k], trial, lists_full);
+        n_reported += advance_run_to_next_step(group, group->loaded_run[k], trial, buffers_full);
     }
     return n_reported;
 }
@@ -141,21 +142,21 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 /*
  * Advance the runs that need the most frequent method, counted by lanes, by one step; the other runs wait. If no two
  * lanes share a method, each run makes its own step outside the lanes. Return the number of runs that Python must be
- * called for. *lists_full is set if the lists of one are full.
+ * called for. *buffers_full is set if the lists of one are full.
  */
-static int advance_lane_group(LaneGroup *group, int *lists_full)
+static int advance_lane_group(LaneGroup *group, int *buffers_full)
 {
-    int n_reported = 0, best_method = 0, count[LANE_KINDS];
+    int n_reported = 0, best_method = 0, count[N_LANE_METHODS];
     count_lanes_of_methods(group, count);
-    for (int method = 0; method < LANE_KINDS; method++)
+    for (int method = 0; method < N_LANE_METHODS; method++)
         best_method = count[method] > count[best_method] ? method : best_method;
     if (count[best_method] > 1)
-        return try_lane_steps(group, best_method, lists_full);
+        return try_lane_steps(group, best_method, buffers_full);
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         if (!has_run(group, i))
             continue;
         flush_lane(group, i);
-        n_reported += advance_run_to_next_step(group, i, NOT_TRIED, lists_full);
+        n_reported += advance_run_to_next_step(group, i, NOT_TRIED, buffers_full);
     }
     return n_reported;
 }
@@ -169,12 +170,13 @@ static int begin_or_resume_run(LaneGroup *group, int i)
     const Batch *batch = group->batch;
     const long run = group->run_number[i];
     if (batch->phase[run] == NEW) {
-        batch->status[run] = group->single_run->begin(batch, run, group->run_number, MAX_GROUP_RUNS, group->run[i]);
+        batch->status[run] =
+            group->scalar_functions->begin(batch, run, group->run_number, MAX_GROUP_RUNS, group->run[i]);
         batch->phase[run] = batch->status[run] ? OVER : BEGUN;
     }
     if (batch->phase[run] == OVER)
-        return record_run_result(group, i, RUN_OVER);
-    return record_run_result(group, i, group->single_run->advance_single(batch, run, NO_TRIAL, group->run[i]));
+        return record_run_result(group, i, RUN_ENDED);
+    return record_run_result(group, i, group->scalar_functions->advance_single(batch, run, NO_TRIAL, group->run[i]));
 }
 
 /* Return the number of runs in a group. */
@@ -190,20 +192,21 @@ static int count_group_runs(const LaneGroup *group)
 int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 
 /*
- * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes,
- * each in its own Integrator run[i]. Return GOES_ON, to be called again, if runs are over
- * (run_number[i] = -1) or after `limit` steps. Return LISTS if the lists of a run are full, ALL_OVER
- * if fewer than two runs are left or the batch is ending. Unfinished runs then continue alone
- * (gudgeon_ensemble). single: the functions that gudgeon_single_run_functions() returns. The wall
- * time is shared equally by the runs.
+ * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes, each in its own
+ * Integrator run[i]. scalar_functions: those that gudgeon_single_run_functions() returns. The wall time is shared
+ * equally by the runs. Return one of
+ *   CALL_AGAIN: runs are over (run_number[i] = -1), or `limit` steps are made;
+ *   BUFFERS_FULL: fetch contacts, events and recorded steps of the runs, then call again;
+ *   BATCH_ENDED: fewer than two runs are left, or the batch is ending; unfinished runs continue alone
+ *       (gudgeon_ensemble()).
  */
-int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *run_number)
+int gudgeon_lanes(const void *batch, const void *scalar_functions, void *const *run, long *run_number)
 {
     LaneGroup group;
     memset(&group, 0, CLEARED_BYTES);
-    group.batch = batch, group.single_run = single;
+    group.batch = batch, group.scalar_functions = scalar_functions;
     const double before = read_wall_time();
-    int n_reported = 0, lists_full = 0, entered = 0;
+    int n_reported = 0, buffers_full = 0, entered = 0;
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         group.run[i] = run[i];
         group.run_number[i] = run_number[i];
@@ -215,11 +218,11 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     for (int i = 0; i < MAX_GROUP_RUNS; i++)
         if (has_run(&group, i))
             n_reported += begin_or_resume_run(&group, i);
-    for (long steps_left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && steps_left > 0
+    for (long steps_left = group.batch->limit; n_reported < MIN_REPORTED && !buffers_full && steps_left > 0
         && !*group.batch->ending; steps_left--) {
         if (count_group_runs(&group) < 2)
             break;
-        n_reported += advance_lane_group(&group, &lists_full);
+        n_reported += advance_lane_group(&group, &buffers_full);
     }
     const double fraction = (read_wall_time() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
@@ -231,5 +234,5 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         run_number[i] = group.run_number[i];
     }
     const int continues = (n_reported || count_group_runs(&group) > 1) && !*group.batch->ending;
-    return lists_full ? LISTS : continues ? GOES_ON : ALL_OVER;
+    return buffers_full ? BUFFERS_FULL : continues ? CALL_AGAIN : BATCH_ENDED;
 }

@@ -54,17 +54,17 @@ static inline Lanes lanes_mod_switching_function(Lanes a, Lanes b)
     return a;
 }
 
-/* Return just_ahead() of each lane. */
-static inline Lanes lanes_just_ahead(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
-/* Return just_behind() of each lane. */
-static inline Lanes lanes_just_behind(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
+/* Return slightly_above() of each lane. */
+static inline Lanes lanes_slightly_above(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
+/* Return slightly_below() of each lane. */
+static inline Lanes lanes_slightly_below(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
 /*
- * Return the derivative of each lane if it is finite, else the difference quotient (ahead - behind) / distance, as
- * finite_slope().
+ * Return the derivative of each lane if it is finite, else the difference quotient (value_after - value_before) /
+ * distance, as finite_slope().
  */
-static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behind, Lanes distance)
+static inline Lanes lanes_finite_slope(Lanes derivative, Lanes value_after, Lanes value_before, Lanes distance)
 {
-    return select_value(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / distance);
+    return select_value(lanes_fabs(derivative) < INFINITY, derivative, (value_after - value_before) / distance);
 }
 
 /* Return the square root of each lane, by a vector instruction where there is one. */

@@ -26,7 +26,7 @@ typedef struct {
     struct {
         STEP_LIMITS(Lanes)
     } limits;
-    Lanes h, error_before, observed_order, last_step, n_contrary, contrary_length, h_rho, convergence_rate, evaluations;
+    Lanes h, error_before, observed_order, last_step, n_opposing, opposing_length, h_rho, convergence_rate, evaluations;
     Lanes begin, phi_max, phi_dot_max; /* begin: of the last accepted step, s */
     Lanes film_error, film_h, film_steps; /* FilmErrors; steps since the measurement */
     Lanes e_max[AT_LEAST_ONE(N_CLEARANCES)], F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)];
@@ -48,7 +48,7 @@ static Lanes compute_time_scale(const LaneLocalSteps *local_steps, const LaneInt
 static LaneBits find_unsampled_steps(
     const LaneLocalSteps *local_steps, const LaneIntegrator *lanes, const LaneStep *step, Lanes t)
 {
-    return local_steps->may_accept & step->is_accepted & (step->error <= lanes->control.accept)
+    return local_steps->may_accept & step->is_accepted & (step->error <= lanes->control.max_accepted_error)
         & (t < local_steps->next_sample) & (step->h < local_steps->t_end - lanes->t)
         & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(local_steps, lanes))
         & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
@@ -74,7 +74,7 @@ static void count_local_steps(LaneLocalSteps *local_steps, LaneBits accepted)
  * Copy the error norm of a run into lane k: inverse scales and smallest sizes of the state, scales of energy, work and
  * speeds.
  */
-static void load_norm(LaneIntegrator *lanes, int k, const Integrator *run)
+static void load_error_norm(LaneIntegrator *lanes, int k, const Integrator *run)
 {
     lanes->norm.energy_scale[k] = run->norm.energy_scale;
     lanes->norm.work_scale[k] = run->norm.work_scale;
@@ -109,15 +109,17 @@ static void flush_state(const LaneIntegrator *lanes, int k, long steps, Integrat
 
 #if LANE_SERIES
 /* Do nothing: series need no other data of their run. */
-static void load_step_data(LaneLocalSteps *local_steps, int k, const LocalStepLimits *limits, const Integrator *run)
+static void load_controller_state(
+    LaneLocalSteps *local_steps, int k, const LocalStepLimits *limits, const Integrator *run)
 {
     (void)local_steps, (void)k, (void)limits, (void)run;
 }
 
 /*
  * Accept the tried steps of Taylor series that need no action of their run, in the lanes of the mask `requested`, and
- * return the mask of their lanes. State, speeds, energy scale and error weights of the lanes are updated as after a
- * single step. The next length h is TAYLOR_AHEAD of the series' longest step, or the rest of the run.
+ * return the mask of their lanes. A step with a sample, or with a stiffness estimate (h rho > 0), is not accepted.
+ * State, speeds, energy scale and error weights of the lanes are updated as after a single step. The next length h is
+ * TAYLOR_AHEAD of the series' longest step, or the rest of the run.
  */
 static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegrator *lanes, int method,
     LaneBits requested, LaneStep *step, const LaneParameters *p, Lanes *h)
@@ -128,7 +130,8 @@ static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegra
     (void)method, (void)p;
     update_energy_scale(lanes, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
-        lanes->series.lost[j] = select_value(accepted, lanes->series.next_lost[j], lanes->series.lost[j]);
+        lanes->series.rounding_errors[j] =
+            select_value(accepted, lanes->series.end_rounding_errors[j], lanes->series.rounding_errors[j]);
         lanes->y[j] = select_value(accepted, step->y[j], lanes->y[j]);
         lanes->dy[j] = select_value(accepted, step->dy[j], lanes->dy[j]);
     }
@@ -146,8 +149,9 @@ static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegra
 }
 
 /*
- * Copy the steps accepted in lane k to its run, with their counts, and open the run's next attempt with length h (s).
- * Copies nothing if the lane has accepted no step since it was loaded.
+ * Copy the steps by Taylor series accepted in lane k to its run, with their counts, rounding errors and longest valid
+ * length, and open the run's next attempt with length h (s). The run's series and linearization are discarded. Copies
+ * nothing if the lane has accepted no step since it was loaded; the lane is empty afterwards in any case.
  */
 static void flush_lane_local_steps(
     LaneLocalSteps *local_steps, const LaneIntegrator *lanes, int k, double h, Integrator *run)
@@ -158,44 +162,45 @@ static void flush_lane_local_steps(
         return;
     flush_state(lanes, k, steps, run);
     for (int j = 0; j < N_Y; j++)
-        run->series.lost[j] = lanes->series.lost[j][k];
+        run->series.rounding_errors[j] = lanes->series.rounding_errors[j][k];
     for (int j = 0; j < N_WORK; j++)
         run->rhs.power[j] = lanes->rhs.power[j][k];
     run->counts.evaluations += 2 * steps - !!run->series.ready;
-    run->choice.n_contrary_steps = run->newton.ready = run->series.ready = 0;
+    run->choice.n_opposing_steps = run->newton.ready = run->series.ready = 0;
     run->choice.h_rho = 0.0;
     run->choice.mean_length[0] = local_steps->mean_length[k];
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
     run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
-        .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1, .lane = BY_TAYLOR};
+        .time_magnitude = compute_time_scale(local_steps, lanes)[k], .is_open = 1, .lane_method = METHOD_TAYLOR};
 }
 #else
 #include "lane_controlled_steps.c"
 #endif
 
 /*
- * Load the part of run i's state into lane k that only steps accepted in the lane need: scales, limits, sample times.
- * The lane may accept as many steps as the run's limits allow; none with fixed steps or after a rejected attempt.
+ * Load what lanes need to accept steps of run i into lane k: scales of tolerances, step limits, controller state, next
+ * sample and end time. The lane may accept as many steps as the run's limits allow. It accepts none, and nothing is
+ * loaded, with fixed steps, after a rejected attempt, or if the method belongs to the other library.
  */
 static void load_lane_local_steps(
     LaneLocalSteps *local_steps, LaneIntegrator *lanes, int k, const Batch *batch, long i,
-    const SingleRunFunctions *single, const Integrator *run)
+    const SingleRunFunctions *scalar_functions, const Integrator *run)
 {
     const double *t = get_sample_times(batch, i);
     LocalStepLimits limits;
-    single->get_local_step_limits(run, batch->p_motion + i * batch->numbers, &limits);
+    scalar_functions->get_local_step_limits(run, batch->p_motion + i * batch->numbers, &limits);
     local_steps->steps[k] = 0;
     local_steps->max_local_steps[k] =
-        (run->control.attempt.lane == BY_TAYLOR) == LANE_SERIES ? limits.max_steps : 0;
+        (run->control.attempt.lane_method == METHOD_TAYLOR) == LANE_SERIES ? limits.max_steps : 0;
     local_steps->may_accept[k] = -(local_steps->max_local_steps[k] > 0);
     local_steps->has_state[k] = local_steps->max_local_steps[k] > 0;
     if (!local_steps->has_state[k])
         return;
-    local_steps->mean_length[k] = run->choice.mean_length[run->control.attempt.lane >= BY_RODAS5P];
+    local_steps->mean_length[k] = run->choice.mean_length[run->control.attempt.lane_method >= METHOD_RODAS5P];
     local_steps->next_sample[k] = t[batch->done[i]];
     local_steps->t_end[k] = get_end_time(batch, i);
-    load_norm(lanes, k, run);
-    load_step_data(local_steps, k, &limits, run);
+    load_error_norm(lanes, k, run);
+    load_controller_state(local_steps, k, &limits, run);
 }
 #endif

@@ -6,8 +6,8 @@
  */
 static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
-    discrete->least = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : NEARLY_SINGULAR);
-    discrete->least_size = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : VANISHING);
+    discrete->min_pivot = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : NEARLY_SINGULAR);
+    discrete->min_pivot_size = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : VANISHING);
 }
 
 /*

@@ -5,23 +5,24 @@
 #include "../scalar_simd/series.h"
 
 /*
- * Remove the lanes whose step has an error above run->control.accept from the mask step->is_accepted. Called when the
- * defect at the end of a step is known.
+ * Remove the lanes whose step has an error above run->control.max_accepted_error from the mask step->is_accepted.
+ * Called when the defect at the end of a step is known.
  */
 static void reject_step_by_defect(const LaneIntegrator *run, LaneStep *step)
 {
-    step->is_accepted &= ~(step->error > run->control.accept);
+    step->is_accepted &= ~(step->error > run->control.max_accepted_error);
 }
 
 /* Do nothing: lanes do not count the repeated evaluation at the end of a step. */
-static void uncount_end_evaluation(const LaneIntegrator *run) { (void)run; }
+static void subtract_end_evaluation(const LaneIntegrator *run) { (void)run; }
 
 #include "../scalar_simd/taylor.h"
 
 /*
  * Try a step by Taylor series in all lanes, of length h (s) or of the longest valid length if that is shorter. Return 0
  * or a status. Lanes at singular positions or with series that are not finite are added to run->discrete.needs_scalar:
- * their scalar runs make the step. `method` is not used.
+ * their scalar runs make the step. `method` is not used. In the library of the other methods, lane_tries.c defines this
+ * function.
  */
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {

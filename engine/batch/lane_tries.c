@@ -10,14 +10,14 @@ static void discard_stages(LaneStep *step)
 {
     step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = broadcast(INFINITY);
+        step->min_event_value[k] = broadcast(INFINITY);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->min_state[k] = broadcast(INFINITY);
         step->max_state[k] = broadcast(-INFINITY);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = broadcast(INFINITY);
-        step->rate[i][1] = broadcast(-INFINITY);
+        step->gap_rate_range[i][0] = broadcast(INFINITY);
+        step->gap_rate_range[i][1] = broadcast(-INFINITY);
     }
 }
 
@@ -33,14 +33,14 @@ static int decide_step_rejection(LaneIntegrator *run, LaneStep *step)
     step->has_no_stages = (LaneBits){0};
 #endif
     step->is_failed = run->discrete.needs_scalar & ~step->has_no_stages;
-    step->is_accepted = ~(step->error > run->control.accept) & ~step->is_failed & ~step->has_no_stages;
+    step->is_accepted = ~(step->error > run->control.max_accepted_error) & ~step->is_failed & ~step->has_no_stages;
     run->discrete.needs_scalar = (LaneBits){0};
     return !any_of(step->is_accepted);
 }
 
 /* Rounding errors (N_Y) of the state at the end of a tried step; NULL: not known. */
 #if LANE_SERIES
-#define END_ROUNDING(run) ((run)->series.next_lost)
+#define END_ROUNDING(run) ((run)->series.end_rounding_errors)
 #else
 #define END_ROUNDING(run) NULL
 #endif
@@ -97,12 +97,12 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
     Lanes *const values = step->stage_values[step->n_stored_stages];
     evaluate_lane_event_functions(run, rhs, values);
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = lanes_min_of(step->lowest[k], values[k]);
+        step->min_event_value[k] = lanes_min_of(step->min_event_value[k], values[k]);
     step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = rhs->clearance[i].deltadot;
-        step->rate[i][0] = lanes_min_of(step->rate[i][0], rate);
-        step->rate[i][1] = lanes_max_of(step->rate[i][1], rate);
+        step->gap_rate_range[i][0] = lanes_min_of(step->gap_rate_range[i][0], rate);
+        step->gap_rate_range[i][1] = lanes_max_of(step->gap_rate_range[i][1], rate);
         values[STAGE_FORCES + i] = compute_squared_force(rhs, i);
         values[STAGE_GAP_RATES + i] = rate;
     }
@@ -163,8 +163,8 @@ static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, La
     return 0;
 }
 
-/* Do nothing: gather_history() has loaded the iteration history of each lane. */
-static void load_iteration_history(LaneIntegrator *run) { (void)run; } /* gather_history has */
+/* Do nothing: gather_stage_predictor() has loaded the stage predictor of each lane. */
+static void load_stage_predictor(LaneIntegrator *run) { (void)run; } /* gather_stage_predictor has */
 
 /* Add n evaluations of the right-hand side to the counts of the active lanes. */
 static void count_stage_evaluations(LaneIntegrator *run, LaneBits is_active, int n)
@@ -182,14 +182,14 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
     count_stage_evaluations(run, is_active, n);
     step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = select_value(is_active, broadcast(INFINITY), step->lowest[k]);
+        step->min_event_value[k] = select_value(is_active, broadcast(INFINITY), step->min_event_value[k]);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->min_state[k] = select_value(is_active, broadcast(INFINITY), step->min_state[k]);
         step->max_state[k] = select_value(is_active, broadcast(-INFINITY), step->max_state[k]);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = select_value(is_active, broadcast(INFINITY), step->rate[i][0]);
-        step->rate[i][1] = select_value(is_active, broadcast(-INFINITY), step->rate[i][1]);
+        step->gap_rate_range[i][0] = select_value(is_active, broadcast(INFINITY), step->gap_rate_range[i][0]);
+        step->gap_rate_range[i][1] = select_value(is_active, broadcast(-INFINITY), step->gap_rate_range[i][1]);
     }
 }
 
@@ -204,15 +204,16 @@ static void record_newton_stage(LaneIntegrator *run, LaneStep *step, LaneBits is
     evaluate_lane_event_functions(run, rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++) {
         values[j] = select_value(is_active, event_functions[j], values[j]);
-        step->lowest[j] = lanes_min_of(step->lowest[j], values[j]); /* no change in lanes that keep their value */
+        /* no change in lanes that keep their value */
+        step->min_event_value[j] = lanes_min_of(step->min_event_value[j], values[j]);
     }
     step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         Lanes *const rate = &values[STAGE_GAP_RATES + i];
         values[STAGE_FORCES + i] = select_value(is_active, compute_squared_force(rhs, i), values[STAGE_FORCES + i]);
         *rate = select_value(is_active, rhs->clearance[i].deltadot, *rate);
-        step->rate[i][0] = lanes_min_of(step->rate[i][0], *rate);
-        step->rate[i][1] = lanes_max_of(step->rate[i][1], *rate);
+        step->gap_rate_range[i][0] = lanes_min_of(step->gap_rate_range[i][0], *rate);
+        step->gap_rate_range[i][1] = lanes_max_of(step->gap_rate_range[i][1], *rate);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->min_state[k] = select_value(is_active, lanes_min_of(step->min_state[k], y[k]), step->min_state[k]);
@@ -238,24 +239,27 @@ static void compute_film_errors(const LaneIntegrator *run, int method, LaneStep 
 {
     if (has_films() && any_of(step->is_accepted))
         step->film_error = compute_film_error_at_ends(run, step,
-            method == BY_RADAU5 ? &radau5_end_rates : &radau9_end_rates, FILM_PART);
+            method == METHOD_RADAU5 ? &radau5_end_rates : &radau9_end_rates, FILM_PART);
 }
 #endif
 
-/* Try a step of length h (s) by `method` (BY_...) in all lanes. Return 0 or a status. */
+/*
+ * Try a step of length h (s) by `method` (a METHOD_ constant) in all lanes. Return 0 or a status. In the library of
+ * Taylor series, lane_series.c defines this function.
+ */
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
     run->newton.evaluations = broadcast(0.0);
     run->newton.has_no_stages = (LaneBits){0};
-    if (method == BY_RADAU5)
+    if (method == METHOD_RADAU5)
         return radau5_try_step(run, h, p, step);
-    if (method == BY_RADAU9)
+    if (method == METHOD_RADAU9)
         return radau9_try_step(run, h, p, step);
 #endif
-    if (method == BY_RK4 || method == BY_DOPRI5)
-        return runge_kutta_try_step(run, method == BY_RK4 ? &classical : &dormand_prince, h, p, step);
-    return method == BY_RODAS5P ? rodas5p_try_step(run, h, p, step) : dop853_try_step(run, h, p, step);
+    if (method == METHOD_RK4 || method == METHOD_DOPRI5)
+        return runge_kutta_try_step(run, method == METHOD_RK4 ? &classical : &dormand_prince, h, p, step);
+    return method == METHOD_RODAS5P ? rodas5p_try_step(run, h, p, step) : dop853_try_step(run, h, p, step);
 }
 #endif
 
@@ -266,10 +270,10 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
  */
 static Lanes count_trial_evaluations(const LaneIntegrator *run, int method)
 {
-    static const int n_stages[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES,
-        [BY_DOPRI5] = DOPRI5_STAGES, [BY_RODAS5P] = RODAS5P_STAGES};
+    static const int n_stages[N_LANE_METHODS] = {[METHOD_DOP853] = DOP853_STAGES, [METHOD_RK4] = RK4_STAGES,
+        [METHOD_DOPRI5] = DOPRI5_STAGES, [METHOD_RODAS5P] = RODAS5P_STAGES};
 #if IMPLICIT_STAGES
-    if (method >= BY_RADAU5)
+    if (method >= METHOD_RADAU5)
         return run->newton.evaluations;
 #endif
     (void)run;
@@ -287,7 +291,7 @@ static int count_lanes_with_events(const LaneIntegrator *run, const LaneStep *st
     int count = 0;
     evaluate_lane_event_functions(run, &step->rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        may_end |= (event_functions[j] < 0.0) | (step->lowest[j] < 0.0);
+        may_end |= (event_functions[j] < 0.0) | (step->min_event_value[j] < 0.0);
     may_end &= step->is_accepted;
     for (int k = 0; k < LANES; k++)
         count -= (int)may_end[k];
@@ -317,17 +321,17 @@ static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, L
  * Try a step of length h (s) by `method` in all lanes, and set the masks of lanes that accept or fail. With dop853 the
  * dense output may be computed too. In lanes that only reject the step, just the error is valid.
  */
-static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
+static void try_step_in_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->discrete.needs_scalar = (LaneBits){0};
     try_method(run, method, h, p, step);
     step->is_failed |= run->discrete.needs_scalar & step->is_accepted;
     step->is_accepted &= ~step->is_failed;
 #if !LANE_SERIES
-    if (method == BY_DOP853)
+    if (method == METHOD_DOP853)
         compute_dense_output(run, p, step);
 #if IMPLICIT_STAGES
-    if (method >= BY_RADAU5)
+    if (method >= METHOD_RADAU5)
         compute_film_errors(run, method, step);
 #endif
 #endif

@@ -157,7 +157,7 @@ typedef struct {
     Lanes event_sign[AT_LEAST_ONE(N_USER_EVENTS)];
     Lanes branch[AT_LEAST_ONE(N_SWITCHES)];
     LaneBits needs_scalar; /* mask of the lanes whose step the scalar code of their runs must make */
-    Lanes least, least_size;
+    Lanes min_pivot, min_pivot_size;
 } LaneDiscreteState;
 
 /* PinForce of several runs. */
@@ -234,7 +234,7 @@ typedef struct {
     } choice;
     LaneNorm norm;
     struct {
-        Lanes accept;
+        Lanes max_accepted_error;
         double fixed; /* length of fixed steps, s; 0: step-size control */
     } control;
     LaneDiscreteState discrete;
@@ -243,7 +243,7 @@ typedef struct {
     struct {
         int order; /* the same in all lanes: a batch has one tolerance; so have the next two */
         double strictness, defect_weight;
-        Lanes max_step, growth, lost[N_Y], next_lost[N_Y];
+        Lanes max_step, growth, rounding_errors[N_Y], end_rounding_errors[N_Y];
         Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* last member: it is large and filled by each trial */
     } series;
 #else
@@ -253,7 +253,7 @@ typedef struct {
     struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
-        Lanes last_h, before_y[N_Y], before_dy[N_Y], convergence_rate, film_force_tol;
+        Lanes last_h, previous_y[N_Y], previous_dy[N_Y], convergence_rate, film_force_tol;
         Lanes evaluations; /* right-hand sides of the trial step */
         LaneBits can_extrapolate, has_no_stages;
 #endif
@@ -271,8 +271,8 @@ typedef struct {
     Lanes dense[N_DENSE][N_Y];
     int dense_ready, n_stored_stages;
     double node[N_STAGES];
-    Lanes stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
-        rate[AT_LEAST_ONE(N_CLEARANCES)][2];
+    Lanes stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], min_event_value[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
+        gap_rate_range[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes residual[2]; /* largest |Phi| and |Phi_dot| of the closures at the end */
     Lanes film_error;  /* with Radau: error of film forces at the ends */
     Lanes min_state[2 * N_X + 1], max_state[2 * N_X + 1];

@@ -31,8 +31,9 @@ static int are_end_checks_recorded(const Integrator *run)
 }
 
 /*
- * Return whether the next step of a run is an ordinary one: not the first step after an event, no closed contact, no
- * suppressed switching point, no singular position, no comparison of both methods.
+ * Return whether the next step of a run is an ordinary one. It is not if it is the first of the run or after an event,
+ * a contact is closed, branches are not frozen, a switching point is suppressed, or a singular position is near. Nor is
+ * it while the costs of both methods of `auto` are compared, or if a stiff method without iterated stages meets a film.
  */
 static int is_ordinary_step(const Integrator *run)
 {
@@ -42,12 +43,12 @@ static int is_ordinary_step(const Integrator *run)
         has_contact |= run->discrete.contact[i].closed;
     if (has_contact)
         return 0;
-    const int is_compared = choice->method->stiff ? has_films() && choice->method->lane < BY_RADAU5
+    const int is_compared = choice->method->stiff ? has_films() && choice->method->lane_method < METHOD_RADAU5
         : (choice->steps_since_change <= MIN_RETURN_STEPS && choice->rho > 0.0)
             || (choice->steps_since_change < MAX_COMPARE_STEPS && run->control.h_stiff > 0.0);
-    const int is_regular = run->near.n_undetected == 0 && run->near.n_failed == 0
+    const int is_regular = run->near_singular.n_steps_without_detection == 0 && run->near_singular.n_failed == 0
         && run->discrete.singular_policy == SINGULAR_CONTINUE;
-    return !run->control.first && run->roots.suppressed_switch < 0 && is_regular && !is_compared
+    return !run->control.stored_first_length && run->roots.suppressed_switch < 0 && is_regular && !is_compared
         && run->counts.steps > 1 && run->discrete.is_frozen;
 }
 
@@ -75,45 +76,48 @@ static long count_steps_of_any_length(const Integrator *run)
 }
 
 /*
- * Set the limits of the next steps of a run, and their largest number: 0 with fixed steps and after a rejected attempt.
- * p: parameters of the run. A step by Taylor series needs that number only.
+ * Set `local_limits`: the limits of the next steps of a run (batch.h), and local_limits->max_steps, the number of steps
+ * that a lane may accept before the run is called. This number is 0, and no limit is set, with fixed steps, after a
+ * rejected attempt, if the next step is not ordinary (is_ordinary_step()), or if the audit is due. A step by Taylor
+ * series needs that number only. parameters: those of the run.
  */
-static void get_local_step_limits(const void *integrator, const double *parameters, LocalStepLimits *local)
+static void get_local_step_limits(const void *integrator, const double *parameters, LocalStepLimits *local_limits)
 {
     const Integrator *run = integrator;
     const Method *method = run->choice.method;
     const Parameters *p = (const Parameters *)parameters;
-    local->max_steps = 0;
+    local_limits->max_steps = 0;
     if (run->control.fixed > 0.0 || run->control.attempt.was_rejected)
         return;
-    if (run->control.attempt.lane == BY_TAYLOR)
-        local->max_steps = count_steps_before_call(run);
-    if (run->control.attempt.lane == BY_TAYLOR || !is_ordinary_step(run) || !are_end_checks_recorded(run))
+    if (run->control.attempt.lane_method == METHOD_TAYLOR)
+        local_limits->max_steps = count_steps_before_call(run);
+    if (run->control.attempt.lane_method == METHOD_TAYLOR || !is_ordinary_step(run) || !are_end_checks_recorded(run))
         return;
     const long steps = count_steps_before_call(run), compared_steps = count_steps_before_comparison(run);
     const long unlimited_steps = count_steps_of_any_length(run);
-    local->max_steps = steps < compared_steps ? steps : compared_steps;
-    if (unlimited_steps > 0 && unlimited_steps < local->max_steps)
-        local->max_steps = unlimited_steps;
-    if (local->max_steps <= 0)
+    local_limits->max_steps = steps < compared_steps ? steps : compared_steps;
+    if (unlimited_steps > 0 && unlimited_steps < local_limits->max_steps)
+        local_limits->max_steps = unlimited_steps;
+    if (local_limits->max_steps <= 0)
         return;
     const double checked = max_of(run->audit.record[CHECK_position].worst, 0.0), rtol = get_audit_tolerance(run);
-    local->limits.power = method->power;
-    local->limits.limiting_h_rho = method->limiting_h_rho;
-    local->limits.unstable = method->rejected_h_rho;
-    local->limits.min_rho = method->stiff ? MAX_EXPLICIT_STABILITY : -INFINITY;
-    local->limits.max_rho = method->stiff ? INFINITY : method->limiting_h_rho;
-    local->limits.max_contrary =
-        !run->choice.automatic ? INFINITY : method->stiff ? run->choice.return_steps : run->choice.max_contrary_steps;
-    local->limits.max_length = unlimited_steps > 0 ? INFINITY
+    local_limits->limits.power = method->power;
+    local_limits->limits.limiting_h_rho = method->limiting_h_rho;
+    local_limits->limits.unstable = method->rejected_h_rho;
+    local_limits->limits.min_rho = method->stiff ? MAX_EXPLICIT_STABILITY : -INFINITY;
+    local_limits->limits.max_rho = method->stiff ? INFINITY : method->limiting_h_rho;
+    local_limits->limits.max_opposing =
+        !run->choice.automatic ? INFINITY : method->stiff ? run->choice.return_steps : run->choice.max_opposing_steps;
+    local_limits->limits.max_length = unlimited_steps > 0 ? INFINITY
         : AUDIT_MEASURED_LENGTH_RATIO * run->audit.longest_measured;
-    local->limits.max_ratio = unlimited_steps > 0 ? INFINITY : AUDIT_LENGTH_RATIO;
-    local->limits.film_error = has_films() && method->stiff ? compute_film_error_limit(run) : INFINITY;
-    local->limits.peak_ratio = method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO;
-    local->limits.residual = !run->audit.level ? INFINITY : max_of(max_of(run->audit.phi_start, run->residuals.phi_max),
+    local_limits->limits.max_ratio = unlimited_steps > 0 ? INFINITY : AUDIT_LENGTH_RATIO;
+    local_limits->limits.film_error = has_films() && method->stiff ? compute_film_error_limit(run) : INFINITY;
+    local_limits->limits.peak_ratio = method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO;
+    local_limits->limits.residual = !run->audit.level ? INFINITY
+        : max_of(max_of(run->audit.phi_start, run->residuals.phi_max),
         checked * max_of(rtol * run->norm.min_size[0], AUDIT_ROUNDING * get_mechanism_size(run)));
     for (int i = 0; i < N_CLEARANCES; i++) {
-        local->limits.gap[i] = compute_dense_output_error(run, i, p);
-        local->limits.clearance[i] = radial_clearance(p, i);
+        local_limits->limits.gap[i] = compute_dense_output_error(run, i, p);
+        local_limits->limits.clearance[i] = radial_clearance(p, i);
     }
 }

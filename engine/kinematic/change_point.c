@@ -108,7 +108,8 @@ static void interpolate_position(const Position *node, double t, const Parameter
 
 /*
  * Compute the position at time t, at or near a change point, by interpolation on the smooth branch that leads there
- * from `start`. Up to PASS_TRIES node distances are tried. Return 0, STOPPED, or the status of the last attempt.
+ * from `start`. Up to PASS_TRIES node distances are tried, the first in which the fastest body turns by
+ * PASS_NODE_ANGLE, each an eighth of the one before. Return 0, STOPPED, or the status of the last attempt.
  * NEWTON_FAILED: `start` is at rest or more than PASS_NODES nodes away, or the polynomials of two degrees differ by
  * more than PASS_POSITION_TOL.
  */

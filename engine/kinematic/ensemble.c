@@ -10,9 +10,9 @@
  * Return whether a run is cancelled: the batch is ending, or it must be short (KinematicBatch.must_be_short). Called as
  * the poll of its cancellation token.
  */
-static int is_batch_ending(void *caller)
+static int is_batch_ending(void *context)
 {
-    const KinematicBatch *batch = caller;
+    const KinematicBatch *batch = context;
     return *batch->ending || batch->must_be_short;
 }
 
@@ -152,8 +152,9 @@ static int has_acceleration_outlier(const RunSamples *samples)
 }
 
 /*
- * Return whether a check of the audit finds an error beyond its limit in one of the drawn samples of run i. Errors that
- * are NaN or infinite do not count: other checks report them.
+ * Return whether a check of the audit finds an error beyond its limit in one of the drawn samples of run i, or in one
+ * of all samples if these are not more than the draws. Errors that are NaN or infinite do not count: other checks
+ * report them.
  */
 static int has_audit_finding(const KinematicBatch *batch, long i, const RunSamples *samples)
 {
@@ -174,8 +175,8 @@ static int has_audit_finding(const KinematicBatch *batch, long i, const RunSampl
 
 /*
  * End run i: write its counts, residuals, status and phase into the batch. is_suspect is set if Python must check the
- * run: a failure, an interpolated sample, an acceleration outlier, or a finding of the audit. A run that was stopped
- * before its first sample becomes NEW again.
+ * run: a failure, an ill-conditioned start, an interpolated sample, a value that is not finite, an acceleration
+ * outlier, or a finding of the audit. A run that was stopped before its first sample becomes NEW again.
  */
 static void end_kinematic_run(const KinematicBatch *batch, long i, KinematicRun *run, int status)
 {

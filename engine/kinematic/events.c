@@ -131,13 +131,13 @@ static double estimate_event_uncertainty(const KinematicRun *run, SampledPositio
 }
 
 /*
- * Return the value of event function i, whose last sign is `branch` (0: none); 0 if the value is below its uncertainty.
- * A value with the last sign is returned as it is.
+ * Return the value of event function i, whose last sign is `last_sign` (0: none); 0 if the value is below its
+ * uncertainty. A value with the last sign is returned as it is.
  */
-static double get_resolved_value(const KinematicRun *run, SampledPosition *sample, int i, int branch)
+static double get_significant_event_value(const KinematicRun *run, SampledPosition *sample, int i, int last_sign)
 {
     const double f = sample->event[i];
-    return branch * f > 0.0 || !(fabs(f) <= estimate_event_uncertainty(run, sample, i)) ? f : 0.0;
+    return last_sign * f > 0.0 || !(fabs(f) <= estimate_event_uncertainty(run, sample, i)) ? f : 0.0;
 }
 
 /*
@@ -147,12 +147,12 @@ static double get_resolved_value(const KinematicRun *run, SampledPosition *sampl
  */
 typedef struct {
     KinematicRun *run;
-    signed char *branch;
+    signed char *last_sign;
     double *t;
     int *event;
     long n_found, capacity;
-    double start; /* of the run: a zero on which it begins is not crossed */
-    int stop;     /* whether an event may end the run */
+    double run_begin; /* s: a zero on which it begins is not crossed */
+    int can_stop;     /* whether an event may end the run */
     unsigned char is_reported_undefined[N_USER_EVENTS]; /* reported as undefined */
     double h, max_bound[N_USER_EVENTS];
     SampledPosition begin, *end;
@@ -220,7 +220,7 @@ static int locate_event(Search *search, int i, const SampledPosition *b, double 
     *t = bracket.at[1].s;
     const int is_undefined = advance_sample(search, *t + POLE_DISTANCE * tolerance.width, &search->low);
     *is_pole = is_near_pole(search->high.event[i], is_undefined ? INFINITY : search->low.event[i])
-        && get_resolved_value(search->run, &search->high, i, 0) != 0.0;
+        && get_significant_event_value(search->run, &search->high, i, 0) != 0.0;
     return 0;
 }
 
@@ -260,18 +260,18 @@ static int collect_events(Search *search, SampledPosition *b)
             status = isnan(a->event[i]) ? 0 : locate_event(search, i, b, &t, &is_pole);
             if (!status)
                 status = insert_event(search, first, t, i + N_USER_EVENTS);
-        } else if (detect_event_crossing(
-                       i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
+        } else if (detect_event_crossing(i, &search->last_sign[i],
+                       get_significant_event_value(search->run, b, i, search->last_sign[i]))) {
             status = locate_event(search, i, b, &t, &is_pole);
             const double rounding = 1e-12 * (b->position.t - a->position.t) + 16.0 * DBL_EPSILON * fabs(t);
-            if (!status && !is_pole && t - search->start > rounding)
+            if (!status && !is_pole && t - search->run_begin > rounding)
                 status = insert_event(search, first, t, i);
         }
         if (status)
             return status;
     }
     for (long k = first; k < search->n_found; k++)
-        if (search->stop && search->event[k] < N_USER_EVENTS && event_stops[search->event[k]]) {
+        if (search->can_stop && search->event[k] < N_USER_EVENTS && event_stops[search->event[k]]) {
             search->n_found = k + 1;
             return EVENT_STOPS;
         }
@@ -289,7 +289,7 @@ static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Inte
     const double error = estimate_event_uncertainty(search->run, &search->begin, i);
     return !f.may_be_undefined && fabs(search->begin.event[i]) <= error
         && (bound <= MAX_UNCERTAINTY_RATIO * error || is_bound_narrowing(-bound, fraction, -search->max_bound[i]))
-        && get_resolved_value(search->run, b, i, 0) == 0.0;
+        && get_significant_event_value(search->run, b, i, 0) == 0.0;
 }
 
 /*
@@ -329,11 +329,11 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
         search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Interval f = out[N_WATCHED - N_USER_EVENTS + i];
-        const double branch = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
+        const double sign = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == search->h)
             search->max_bound[i] = max_of(-f.lo, f.hi);
-        const Interval bounds = branch < 0.0 ? interval_negative(f) : f;
-        if (classify_zero(bounds, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
+        const Interval bounds = sign < 0.0 ? interval_negative(f) : f;
+        if (classify_zero(bounds, sign * a->event[i], sign * b->event[i], 1.0, 0) < 0
             && !is_zero_by_constraint(search, b, i, f))
             return 1;
     }
@@ -341,9 +341,10 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 }
 
 /*
- * Classify the part of a step from search->begin to the last of search->end, as a callback of bisect_interval(). Return
- * -1 to bisect it, 1 if a status ends the search, 0 after its events are collected. A part is bisected if it may have a
- * hidden zero, is not smallest, and its middle can be solved. a, b: times of its ends, s.
+ * Classify the part of a step from search->begin to the last of search->end, as a callback of bisect_interval(). If the
+ * part may have a hidden zero, is not smallest, and its middle can be solved, push the middle onto the stack
+ * search->end and return -1: bisect. Otherwise collect its events, pop its end from the stack and make it
+ * search->begin; return 0, or 1 if search->status ends the search. a, b: times of its ends, s.
  */
 static int classify_subinterval(void *context, double a, double b, int is_smallest)
 {
@@ -386,20 +387,20 @@ static int find_events_in_interval(Search *search, double t1)
 }
 
 /*
- * Find the user-defined events in the intervals between n + 1 samples of a kinematic motion, in order of time. start:
- * time at which the run began, s; stop: whether an event may end it. branch: last signs, updated; event_time, event:
- * times (s) and numbers of `n_found` events; n_done: number of complete intervals. Return 0, EVENT_STOPS after an event
- * that ends the run, EVENTS_FULL if the capacity is used up, STOPPED, or the status of the motion. An interval that is
- * not complete is searched again by the next call.
+ * Find the user-defined events in the intervals between n + 1 samples of a kinematic motion, in order of time.
+ * run_begin: time at which the run began, s; can_stop: whether an event may end it. last_sign: last signs, updated;
+ * event_time, event: times (s) and numbers of `n_found` events; n_done: number of complete intervals. Return 0,
+ * EVENT_STOPS after an event that ends the run, EVENTS_FULL if the capacity is used up, STOPPED, or the status of the
+ * motion. An interval that is not complete is searched again by the next call.
  */
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *branch, long capacity, double *event_time, int *event,
-    long *n_found, long *n_done)
+    const double *v, double run_begin, int can_stop, signed char *last_sign, long capacity, double *event_time,
+    int *event, long *n_found, long *n_done)
 {
     KinematicRun *run = integrator;
     SampledPosition end[MAX_PART_HALVINGS + 2];
-    Search search = {.run = run, .branch = branch, .t = event_time, .event = event, .capacity = capacity,
-        .start = start, .stop = stop, .end = end};
+    Search search = {.run = run, .last_sign = last_sign, .t = event_time, .event = event, .capacity = capacity,
+        .run_begin = run_begin, .can_stop = can_stop, .end = end};
     run->p = (const Parameters *)parameters;
     for (*n_done = 0; *n_done < n; ++*n_done) {
         signed char signs[N_USER_EVENTS];
@@ -409,15 +410,16 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
             return status;
         evaluate_sample_events(run, &search.begin);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)detect_event_crossing(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.begin, i, 0));
-            signs[i] = branch[i]; /* the first sign, if there was none */
+            (void)detect_event_crossing(
+                i, &last_sign[i], last_sign[i] ? 0.0 : get_significant_event_value(run, &search.begin, i, 0));
+            signs[i] = last_sign[i]; /* the first sign, if there was none */
         }
         *n_found = search.n_found;
         status = find_events_in_interval(&search, t[*n_done + 1]);
         if (run->cancellation.stop)
             status = STOPPED; /* events of this interval are discarded */
         if (status == EVENTS_FULL || status == STOPPED)
-            memcpy(branch, signs, sizeof signs);
+            memcpy(last_sign, signs, sizeof signs);
         else
             *n_found = search.n_found;
         if (status)

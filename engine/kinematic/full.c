@@ -7,7 +7,7 @@
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.token = &run->cancellation, DEFAULT_PIVOT_LIMITS};
+    const DiscreteState discrete = {.cancellation = &run->cancellation, DEFAULT_PIVOT_LIMITS};
     const int status = dynamics(get_time_after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }
@@ -15,7 +15,8 @@ static int solve_accelerations(KinematicRun *run, const Position *position, doub
 /*
  * Solve Phi(q, t) = 0 by Newton's method from the guess in q. It ends when the correction is below 1e-9 and no longer
  * halved, or below 1e-15. correction: incremented by the corrections; last_correction: the last one; both in rad or
- * fractions of the size. Return 0, the status of project(), or NEWTON_FAILED after MAX_NEWTON iterations or NaN.
+ * fractions of the size. Return 0, the status of project(), or NEWTON_FAILED if a correction is NaN or the last of
+ * MAX_NEWTON iterations corrects by 1e-9 or more.
  */
 static int solve_position_equations(const KinematicRun *run, double t, double *q, double *correction,
     double *last_correction)

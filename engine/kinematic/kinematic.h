@@ -13,8 +13,8 @@ enum { N_HIGHER = 3 }; /* terms of the third to fifth order */
  * which it is tested for transients.
  */
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
-#define MAX_SECOND_RATE_MOVE 0.05 /* rad, or fraction of the size: largest effect of second rates on a first guess */
-#define MAX_HIGHER_MOVE 1e-3      /* the same: largest effect of terms of higher order */
+#define MAX_SECOND_RATE_DISPLACEMENT 0.05 /* rad, or fraction of the size: largest effect of second rates on a guess */
+#define MAX_HIGHER_ORDER_DISPLACEMENT 1e-3      /* the same: largest effect of terms of higher order */
 #define MIN_PASS_CORRECTION 1e3   /* in DBL_EPSILON of the largest angle: larger last corrections are ill-conditioned */
 #define MAX_STEP_ERROR 0.002      /* of the largest correction: largest difference from the trapezoidal rule */
 #define STEP_DOUBLING_ERROR 0.1   /* of the error limit: below it, a halved step is doubled again */

@@ -54,9 +54,9 @@ __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, 
 
 /*
  * Solve the closures at times t by Newton's method from the guess in `position`, and compute the motion of all bodies
- * there. Return the lanes in which it failed. Solved lanes are evaluated again with the others, with the same result.
- * The motion is evaluated only where Newton's step is expected to be the last. correction: incremented by the
- * corrections, in rad or fractions of the size.
+ * there. Return the lanes in which it failed. Solved lanes keep their coordinates while others iterate. As soon as the
+ * corrections of all unsolved lanes are below NEWTON_NEARLY_CLOSED, the motion is evaluated together with Newton's
+ * step; otherwise after the iteration. correction: incremented by the corrections, in rad or fractions of the size.
  */
 static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
     Lanes *correction)
@@ -93,18 +93,20 @@ static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lane
 static void guess_lane_positions(Lanes extent, Lanes t, const LanePosition *start, LanePosition *position)
 {
     const Lanes h = t - start->t, r = h / start->interval;
-    Lanes largest = broadcast(0.0), largest_move = broadcast(0.0), move[N_X + 1];
+    Lanes largest = broadcast(0.0), largest_displacement = broadcast(0.0), displacement[N_X + 1];
     for (int k = 0; k < N_X; k++) {
-        move[k] = sum_higher_terms(r, start->s_higher[k]);
+        displacement[k] = sum_higher_terms(r, start->s_higher[k]);
         largest = get_larger_or_nan(largest, compute_coordinate_size(0.5 * h * h * start->s_second[k], k, extent));
-        largest_move = get_larger_or_nan(largest_move, compute_coordinate_size(move[k], k, extent));
+        largest_displacement =
+            get_larger_or_nan(largest_displacement, compute_coordinate_size(displacement[k], k, extent));
     }
-    const Lanes half_h = select_value(largest <= MAX_SECOND_RATE_MOVE, 0.5 * h, broadcast(0.0));
-    const LaneBits has_second = half_h != 0.0, has_higher = has_second & (largest_move <= MAX_HIGHER_MOVE);
+    const Lanes half_h = select_value(largest <= MAX_SECOND_RATE_DISPLACEMENT, 0.5 * h, broadcast(0.0));
+    const LaneBits has_second = half_h != 0.0,
+                   has_higher = has_second & (largest_displacement <= MAX_HIGHER_ORDER_DISPLACEMENT);
     for (int k = 0; k < N_X; k++) {
         const Lanes by_second_rate = select_value(has_second, half_h * start->s_second[k], broadcast(0.0));
         position->s[k] = start->s[k] + h * (start->s_rate[k] + by_second_rate)
-            + select_value(has_higher, move[k], broadcast(0.0));
+            + select_value(has_higher, displacement[k], broadcast(0.0));
     }
 }
 
@@ -171,7 +173,7 @@ static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, cons
         interval_work[k] = broadcast(0.0);
     for (int i = 0; i < N_WORK_NODES; i++) {
         LanePosition node;
-        LaneDiscreteState discrete = {.least = broadcast(0.0)};
+        LaneDiscreteState discrete = {.min_pivot = broadcast(0.0)};
         LaneRhsOutputs rhs;
         Lanes correction, acceleration[N_X + 1];
         is_irregular |=

@@ -19,7 +19,7 @@ enum { BLOCK_ROWS = 16 };
  */
 typedef struct {
     const KinematicBatch *batch;
-    const KinematicRunFunctions *single;
+    const KinematicRunFunctions *scalar_functions;
     KinematicRun *run[LANES];
     long index[LANES], next_state[LANES], steps_before_check[LANES], n_uniform, limit;
     LaneParameters p;
@@ -78,7 +78,7 @@ static void copy_run_to_lane(RunLanes *lanes, int k)
     lanes->smallest_a[k] = samples->smallest_a;
     lanes->are_finite[k] = samples->are_finite ? -1 : 0;
     lanes->next_state[k] = find_next_state(lanes->batch, samples->n, samples->done);
-    lanes->steps_before_check[k] = lanes->single->count_steps_before_check(&run->monitor);
+    lanes->steps_before_check[k] = lanes->scalar_functions->count_steps_before_check(&run->monitor);
 }
 
 /* Copy the extremes of the samples (residuals, accelerations, finiteness) from lane k to its run. */
@@ -255,7 +255,7 @@ static Lanes get_following_times(const RunLanes *lanes)
 /* End the run in lane k with a status, and free the lane. */
 static void end_run_in_lane(RunLanes *lanes, int k, int status)
 {
-    lanes->single->end(lanes->batch, lanes->index[k], lanes->run[k], status);
+    lanes->scalar_functions->end(lanes->batch, lanes->index[k], lanes->run[k], status);
     lanes->index[k] = -1;
     lanes->has_run[k] = 0;
 }
@@ -282,7 +282,7 @@ static void begin_next_run_in_lane(RunLanes *lanes, int k, long n, const long *i
         for (long j = 0; j < batch->numbers; j++)
             ((Lanes *)&lanes->p)[j][k] = batch->p[i * batch->numbers + j];
         lanes->extent[k] = batch->size[i];
-        const int status = lanes->single->begin(batch, i, lanes->run[k]);
+        const int status = lanes->scalar_functions->begin(batch, i, lanes->run[k]);
         if (status || has_all_samples(lanes, k))
             end_run_in_lane(lanes, k, status);
         else
@@ -291,8 +291,9 @@ static void begin_next_run_in_lane(RunLanes *lanes, int k, long n, const long *i
 }
 
 /*
- * Count the accepted step of lane k, check its progress, and store its end as a sample if it reaches t1[k]. The sample
- * is the first row of the block. Return 0 or STALLED.
+ * Count the accepted step of lane k, and store its end as a sample if it reaches t1[k]. The sample's series and largest
+ * |a| are row 0 of lanes->block, by add_lane_samples(). Then t1 and h of the lane are set for the next sample, without
+ * halvings. Progress is checked only after every steps_before_check[k] steps. Return 0 or STALLED.
  */
 static int accept_lane_step(RunLanes *lanes, int k)
 {
@@ -303,10 +304,10 @@ static int accept_lane_step(RunLanes *lanes, int k)
     if (lanes->steps_before_check[k] > 0) {
         lanes->steps_before_check[k]--;
         run->monitor.steps++;
-    } else if (lanes->single->detect_stall(&run->monitor, t, run->t_end)) {
+    } else if (lanes->scalar_functions->detect_stall(&run->monitor, t, run->t_end)) {
         return STALLED;
     } else {
-        lanes->steps_before_check[k] = lanes->single->count_steps_before_check(&run->monitor);
+        lanes->steps_before_check[k] = lanes->scalar_functions->count_steps_before_check(&run->monitor);
     }
     if (t < lanes->t1[k])
         return 0;
@@ -343,7 +344,8 @@ static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int
     }
     if (outcome != ACCEPTED)
         copy_lane_to_run(lanes, k);
-    const int status = outcome == ACCEPTED ? accept_lane_step(lanes, k) : lanes->single->advance(lanes->run[k]);
+    const int status =
+        outcome == ACCEPTED ? accept_lane_step(lanes, k) : lanes->scalar_functions->advance(lanes->run[k]);
     const int is_over = status || has_all_samples(lanes, k);
     if (is_over && outcome == ACCEPTED)
         copy_extremes_to_run(lanes, k);
@@ -407,7 +409,7 @@ static void advance_run_lanes(RunLanes *lanes)
     LaneBits is_accepted = ~is_irregular & (correction <= max_correction) & (error <= max_error);
     for (int k = 0; N_TRANSIENTS && k < LANES; k++)
         if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.step_length.halvings <= PULSE_HALVINGS
-            && lanes->single->has_transient(position->t[k], t[k], lanes->run[k]->p))
+            && lanes->scalar_functions->has_transient(position->t[k], t[k], lanes->run[k]->p))
             is_accepted[k] = 0;
     if (batch->has_works && any_of(is_accepted))
         is_irregular |= is_accepted
@@ -439,15 +441,16 @@ static int count_active_lanes(const RunLanes *lanes)
 int gudgeon_lane_count(void) { return LANES; }
 
 /*
- * Compute n runs of a batch, whose indices are given, in lanes, each in one of the memories run[LANES]. single: the
- * functions that gudgeon_single_run_functions() returns. The last run in the lanes is completed by scalar steps. If the
- * batch is ending, the current runs end at once, and no run begins.
+ * Compute n runs of a batch, whose indices are given, in lanes, each in one of the memories run[LANES].
+ * scalar_functions: those that gudgeon_single_run_functions() returns. The last run in the lanes is completed by scalar
+ * steps. If the batch is ending, the current runs end at once, and no run begins.
  */
-void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const *run, long n, const long *indices)
+void gudgeon_kinematic_lanes(
+    const void *batch, const void *scalar_functions, void *const *run, long n, const long *indices)
 {
     RunLanes lanes;
     memset(&lanes, 0, sizeof lanes);
-    lanes.batch = batch, lanes.single = single;
+    lanes.batch = batch, lanes.scalar_functions = scalar_functions;
     lanes.extent = broadcast(1.0);
     lanes.position = &lanes.positions[0], lanes.next = &lanes.positions[1];
     long next = 0;
@@ -468,7 +471,7 @@ void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const 
             continue;
         copy_lane_to_run(&lanes, k);
         while (!status && lanes.run[k]->samples.done < lanes.run[k]->samples.n)
-            status = lanes.single->advance(lanes.run[k]);
-        lanes.single->end(lanes.batch, lanes.index[k], lanes.run[k], status);
+            status = lanes.scalar_functions->advance(lanes.run[k]);
+        lanes.scalar_functions->end(lanes.batch, lanes.index[k], lanes.run[k], status);
     }
 }

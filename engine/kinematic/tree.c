@@ -9,7 +9,7 @@
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.token = &run->cancellation};
+    const DiscreteState discrete = {.cancellation = &run->cancellation};
     const int status =
         reduced_dynamics(get_time_after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
@@ -18,8 +18,8 @@ static int solve_accelerations(KinematicRun *run, const Position *position, doub
 /*
  * Solve the closures at time t by Newton's method from the guess position->s, and compute the rates s_rate there. It
  * ends when the correction is below NEWTON_ROUNDING, or below NEWTON_CLOSED and no longer halved. Also sets
- * last_correction and phi. correction: incremented by the corrections, rad or fraction of the size. Return 0 or a
- * status.
+ * last_correction and phi. correction: incremented by the corrections, rad or fraction of the size. Return 0, a status,
+ * or NEWTON_FAILED if a correction is NaN or the last of MAX_NEWTON iterations corrects by NEWTON_CLOSED or more.
  */
 static int solve_position_equations(const KinematicRun *run, double t, Position *position, double *correction)
 {
@@ -46,30 +46,30 @@ static int solve_position_equations(const KinematicRun *run, double t, Position 
 }
 
 /*
- * Return whether second rates change a first guess over a time h (s) by more than MAX_SECOND_RATE_MOVE, or are NaN.
- * Near a time at which the second rate of a drive is unbounded they do not describe the whole step.
+ * Return whether second rates change a first guess over a time h (s) by more than MAX_SECOND_RATE_DISPLACEMENT, or are
+ * NaN. Near a time at which the second rate of a drive is unbounded they do not describe the whole step.
  */
 static int exceeds_second_rate_limit(const Position *start, double h, double extent)
 {
     double largest = 0.0;
     for (int k = 0; k < N_X; k++)
         largest = get_larger_or_nan(largest, fabs(0.5 * h * h * start->s_second[k]) / (is_angle[k] ? 1.0 : extent));
-    return !(largest <= MAX_SECOND_RATE_MOVE);
+    return !(largest <= MAX_SECOND_RATE_DISPLACEMENT);
 }
 
 /*
- * Compute the terms of third to fifth order of a first guess over a time h (s): move (N_X). All are zero without an
- * earlier position (interval 0), or where one is larger than MAX_HIGHER_MOVE.
+ * Compute the terms of third to fifth order of a first guess over a time h (s): displacement (N_X). All are zero
+ * without an earlier position (interval 0), or where one is larger than MAX_HIGHER_ORDER_DISPLACEMENT.
  */
-static void compute_higher_order_move(const Position *start, double h, double extent, double *move)
+static void compute_higher_order_displacement(const Position *start, double h, double extent, double *displacement)
 {
     double largest = 0.0;
     for (int k = 0; k < N_X; k++) {
-        move[k] = sum_higher_terms(h / start->interval, start->s_higher[k]);
-        largest = get_larger_or_nan(largest, fabs(move[k]) / (is_angle[k] ? 1.0 : extent));
+        displacement[k] = sum_higher_terms(h / start->interval, start->s_higher[k]);
+        largest = get_larger_or_nan(largest, fabs(displacement[k]) / (is_angle[k] ? 1.0 : extent));
     }
-    for (int k = 0; k < N_X && !(largest <= MAX_HIGHER_MOVE); k++)
-        move[k] = 0.0;
+    for (int k = 0; k < N_X && !(largest <= MAX_HIGHER_ORDER_DISPLACEMENT); k++)
+        displacement[k] = 0.0;
 }
 
 /*
@@ -95,14 +95,15 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     double *correction)
 {
     const double h = t - start->t, half_h = exceeds_second_rate_limit(start, h, run->extent) ? 0.0 : 0.5 * h;
-    double move[N_X + 1];
+    double displacement[N_X + 1];
     *correction = 0.0;
     position->t = t;
     position->is_interpolated = 0;
-    compute_higher_order_move(start, h, run->extent, move);
+    compute_higher_order_displacement(start, h, run->extent, displacement);
     for (int k = 0; k < N_X; k++) {
         const double by_second_rate = half_h != 0.0 ? half_h * start->s_second[k] : 0.0;
-        position->s[k] = start->s[k] + h * (start->s_rate[k] + by_second_rate) + (half_h != 0.0 ? move[k] : 0.0);
+        position->s[k] =
+            start->s[k] + h * (start->s_rate[k] + by_second_rate) + (half_h != 0.0 ? displacement[k] : 0.0);
     }
     const double t_after_jump = get_time_after_jump(t);
     int status = solve_position_equations(run, t_after_jump, position, correction);
@@ -143,6 +144,7 @@ static int initialize_position(KinematicRun *run, double t, const double *q, con
         position->s_second[k] = 0.0;
     position->phi = position->phi_dot = 0.0;
     const int status =
-        dynamics(t, q, v, &(DiscreteState){.token = &run->cancellation, DEFAULT_PIVOT_LIMITS}, p, position->a, &rhs);
+        dynamics(t, q, v, &(DiscreteState){.cancellation = &run->cancellation, DEFAULT_PIVOT_LIMITS}, p, position->a,
+            &rhs);
     return status > 0 ? N_LOOPS + status : status;
 }

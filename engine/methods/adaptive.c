@@ -32,8 +32,13 @@ static void update_event_signs_within_step(Integrator *run, Step *step, double f
 
 /*
  * Make the end of an accepted step, or its state at `fraction` < 1 where `event` occurs, the new state of the run at
- * time t_new (s). Then update everything that depends on it: peaks, works, counts, error weights, step record, event
- * signs. Last, apply the event (-1: none), and check open contacts. `fraction` < 1 needs a dense output that exists.
+ * time t_new (s). `fraction` < 1 needs a dense output that exists. In order, the following is updated:
+ *   - unset signs of user-defined events, peaks within the step, branches of switching points crossed within the
+ *       tolerance;
+ *   - state, counts, error weights and their scales; stored linearization and series are discarded;
+ *   - compression flags, constraint residuals (at an event of a drive, |Phi_dot| keeps its largest value), step record;
+ *   - after a step without event: the switching point that was suppressed, and its branch;
+ *   - signs of user-defined events; the event (-1: none) is applied; open contacts are checked.
  *
  * Return 0 or the status: that of the state, CHATTERING after too many events without advance, that of the event (also
  * ENDED) or of the contacts.
@@ -45,8 +50,8 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     int status = fraction < 1.0 ? evaluate_state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
-    record_inner_peaks(run, step, fraction, p);
-    flip_passed_branches(run, step);
+    record_peaks_within_step(run, step, fraction, p);
+    flip_ignored_branches(run, step);
     update_energy_scale(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
@@ -251,12 +256,12 @@ static int find_event_of_step(
 static int begin_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {
     const double t_end = samples->t[samples->n - 1];
-    const int is_new_step = !run->discrete.is_frozen && !run->control.attempt.open;
+    const int is_new_step = !run->discrete.is_frozen && !run->control.attempt.is_open;
     *status = is_new_step ? begin_integration(run, t_end - run->t, p) : 0;
     if (!*status && is_new_step)
         append_row_after_jump(run, p);
     mark_jump_before_next_row(run, is_new_step);
-    if (run->control.attempt.open)
+    if (run->control.attempt.is_open)
         return !is_last; /* attempts continue */
     if (*status)
         return 0;
@@ -268,7 +273,7 @@ static int begin_step(Integrator *run, int is_last, const Parameters *p, const S
         return 0;
     if (run->cancellation.stop)
         *status = STOPPED;
-    else if (has_full_lists(run))
+    else if (has_full_buffers(run))
         *status = EVENTS_FULL;
     else if (run->control.fixed <= 0.0 && detect_run_stall(run, t_end))
         *status = diagnose_stall(run, STALLED, p);

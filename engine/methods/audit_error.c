@@ -109,7 +109,7 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], error_norm, change = 0.0; /* mean defect, 1/s */
     RhsOutputs rhs;
     for (int k = 0; k < N_SWITCHES; k++)
-        if (step->passed[k])
+        if (step->is_ignored[k])
             return;
     if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE
         || compute_dense_output(run, p, step))

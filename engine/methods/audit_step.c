@@ -202,7 +202,7 @@ static int has_event_zero(Integrator *run, Step *step, double fraction, int i, c
  * Return whether the value of user-defined event i exceeds its uncertainty at the end of a step (`is_end`), else at its
  * beginning (is_above_uncertainty()).
  */
-static int is_event_resolved(Integrator *run, const Step *step, int is_end, int i, const Parameters *p)
+static int is_event_value_significant(Integrator *run, const Step *step, int is_end, int i, const Parameters *p)
 {
     const int k = N_EVENT_FUNCTIONS - N_USER_EVENTS + i;
     return is_end ? is_above_uncertainty(run, step->t + step->h, step->y, &step->rhs, k, p)
@@ -228,15 +228,16 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
         if (step->h > AUDIT_MIN_LENGTH_RATIO * audit->longest_measured && isfinite(inside))
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE_FRACTION * audit->event_scale[i];
-        audit->has_left_zero[i] |= max_of(fabs(before), inside) > noise;
+        audit->was_nonzero_since_event[i] |= max_of(fabs(before), inside) > noise;
         /* initialize_event_signs() set the sign already */
         const int begins_beyond = run->counts.steps == 0 && run->discrete.event_sign[i] * after > 0.0;
         /* also from a pole, near which it grows and falls at once */
         const int far = fraction * step->h > compute_event_location_tolerance(run);
-        audit->event_before[i] = audit->end_event == i && far && is_event_resolved(run, step, 0, i, p) ? before : 0.0;
+        audit->event_before[i] =
+            audit->end_event == i && far && is_event_value_significant(run, step, 0, i, p) ? before : 0.0;
         audit->has_zero[i] = fraction >= 1.0 && audit->end_event != i && !begins_beyond && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
-            && is_event_resolved(run, step, 0, i, p) && is_event_resolved(run, step, 1, i, p)
+            && is_event_value_significant(run, step, 0, i, p) && is_event_value_significant(run, step, 1, i, p)
             && has_event_zero(run, step, fraction, i, p);
     }
 }
@@ -247,7 +248,7 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
  */
 static double compute_mean_check_interval(const Method *method)
 {
-    const double evaluations = method->stages * (method->lane >= BY_RADAU5 ? AUDIT_ITERATIONS : 1.0);
+    const double evaluations = method->stages * (method->lane_method >= METHOD_RADAU5 ? AUDIT_ITERATIONS : 1.0);
     return AUDIT_CHECK_EVALUATIONS / (AUDIT_COST_FRACTION * max_of(evaluations, AUDIT_MIN_EVALUATIONS));
 }
 
@@ -281,7 +282,7 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
         check_friction_modes(run, step->t + h, &step->rhs);
     }
     const int has_end_event = event >= 0 && fraction < 1.0;
-    const int is_known = has_end_event && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
+    const int is_known = has_end_event && run->counts.steps > 0 && run->roots.samples.negative_fraction == fraction;
     if (is_known)
         check_interior_state(
             run, step, fraction, 0, run->roots.samples.y, run->roots.samples.dy, &run->roots.samples.rhs, p);

@@ -77,7 +77,7 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
         return 0.0;
     run->films.h = step->h, run->films.steps = run->counts.steps;
     run->films.error = fraction / compute_film_error_limit(run);
-    if (step->method->lane == BY_RODAS5P)
+    if (step->method->lane_method == METHOD_RODAS5P)
         run->films.error *= RODAS5P_FILM_FACTOR;
     return run->films.error;
 }
@@ -103,26 +103,28 @@ static double estimate_film_error_at_ends(const Integrator *run, const Step *ste
 {
     if (!step->method->stiff || !has_films())
         return 0.0;
-    const int is_known = step->stage_values_lane && step->method->lane >= BY_RADAU5 && scale_fraction == FILM_PART;
+    const int is_known =
+        step->stage_values_lane && step->method->lane_method >= METHOD_RADAU5 && scale_fraction == FILM_PART;
     return (is_known ? step->film_error
         : compute_film_error_at_ends(run, step, step->method->end_rates, scale_fraction))
         / compute_film_error_limit(run);
 }
 
 /*
- * Return whether the errors of film forces need not be measured inside this step. end_error: that at the ends of the
- * step, in limits. Always 1 for explicit methods and without films.
+ * Return whether the errors of film forces need not be measured inside this step: a stiff step with films is measured
+ * unless they are known to be small. end_error: that at the ends of the step, in limits. Always 1 for explicit methods
+ * and without films.
  *
  * The last measured error and end_error must be below MAX_SMALL_FILM_ERROR. Errors are measured at least every
  * MAX_UNMEASURED_FILM_STEPS steps, in steps FILM_LENGTH_RATIO longer than the last measured one, and in the first step
- * after an event.
+ * after an event. Called before a step is accepted.
  */
-static int is_film_error_small(const Integrator *run, const Step *step, double end_error)
+static int can_skip_film_error(const Integrator *run, const Step *step, double end_error)
 {
     if (!step->method->stiff || !has_films())
         return 1;
-    return is_film_measured(end_error, step->h, run->films.error, run->films.h,
-        (double)(run->counts.steps - run->films.steps)) && !run->control.first;
+    return is_last_film_error_valid(end_error, step->h, run->films.error, run->films.h,
+        (double)(run->counts.steps - run->films.steps)) && !run->control.stored_first_length;
 }
 
 /*

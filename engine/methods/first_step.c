@@ -79,8 +79,9 @@ static double compute_length_factor(const Integrator *run, double h, double chan
 /*
  * Fit the length run->control.h of the first step after an event to the change of accelerations along straight motion.
  * At an onset the allowed error is that of the last onset. After other events the length is fitted only once; later
- * steps reuse the length stored for that kind of event. Does nothing for fixed steps, methods that choose their length,
- * and without an event. time_left: to the end of the run, s. Return 0, or STOPPED; other failures shorten the step.
+ * steps reuse the length stored for that kind of event. At most MAX_FITTED lengths are tried; onset_error_per_s is
+ * stored for record_first_step_length(). Does nothing for fixed steps, methods that choose their length, and without an
+ * event. time_left: to the end of the run, s. Return 0, or STOPPED; other failures shorten the step.
  */
 static int fit_first_step_after_event(Integrator *run, double time_left, const Parameters *p)
 {
@@ -91,8 +92,8 @@ static int fit_first_step_after_event(Integrator *run, double time_left, const P
     const double onset_error = last_onset_error > 0.0 ? last_onset_error : default_onset_error;
     const double allowed_error = is_onset ? onset_error
         : !is_after_switch ? CHANGE_AFTER_EVENT : stiff ? CHANGE_AT_SWITCH_STIFF : CHANGE_AT_SWITCH;
-    if (!run->control.first || run->control.fixed > 0.0 || run->choice.method->controls_length
-        || (*run->control.first > 0.0 && !is_onset))
+    if (!run->control.stored_first_length || run->control.fixed > 0.0 || run->choice.method->controls_length
+        || (*run->control.stored_first_length > 0.0 && !is_onset))
         return 0;
     run->control.onset_error_per_s = 0.0;
     for (int i = 1; i <= MAX_FITTED && time_left > 0.0; i++) {

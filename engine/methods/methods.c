@@ -13,7 +13,7 @@ struct Method {
     void (*interpolate)(const Integrator *, const Step *, double fraction, double *y);
     const struct Tableau *tableau; /* coefficients of an explicit method, methods/runge_kutta.c */
     int uses_baumgarte_terms;               /* whether Baumgarte's terms replace the projection onto the constraints */
-    int lane;                 /* its code in lanes (BY_..., run/run.h) */
+    int lane_method;          /* its code in lanes (METHOD_..., run/run.h) */
     double power;             /* exponent of the step-size control: 1 / (order of the error estimate + 1) */
     int stiff;                /* whether it uses the Jacobian */
     double rejected_h_rho, limiting_h_rho; /* h rho above which steps are rejected; stability limits the steps */

@@ -16,7 +16,7 @@ static int factor_complex_matrix(Integrator *run, double eta, double eta_i, Comp
  * Update the iteration history of a run before a step, from which the first guess of the stages is extrapolated. In
  * lanes, the function of this name copies it.
  */
-static void load_iteration_history(Integrator *run) { update_iteration_history(run); }
+static void load_stage_predictor(Integrator *run) { update_stage_predictor(run); }
 
 /*
  * Do nothing: for one run, evaluate_run_rhs() counts its own evaluations. In lanes, n evaluations of the active runs
@@ -116,7 +116,8 @@ static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.2768430
 
 /* The method Radau IIA of order 5 with three stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense = radau5_compute_dense_output,
-    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .rejected_h_rho = INFINITY,
+    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane_method = METHOD_RADAU5,
+    .rejected_h_rho = INFINITY,
     .limiting_h_rho = INFINITY, .stages = 3, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED,
     .error_nodes = radau5_error_nodes,
     .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = RADAU5_ERROR_FRACTION,
@@ -124,7 +125,8 @@ static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense =
 
 /* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
-    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .rejected_h_rho = INFINITY,
+    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane_method = METHOD_RADAU9,
+    .rejected_h_rho = INFINITY,
     .limiting_h_rho = INFINITY, .stages = 5, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED,
     .error_nodes = radau9_error_nodes,
     .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = RADAU9_ERROR_FRACTION,

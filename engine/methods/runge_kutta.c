@@ -41,7 +41,8 @@ static void tableau_interpolate(const Integrator *run, const Step *step, double 
 static const double rk4_error_nodes[] = {0.0, 0.5, 1.0};
 
 /* The classical method of order 4, for fixed steps; in the full formulation Baumgarte's terms stabilise it. */
-static const Method rk4 = {.name = "rk4", BY_TABLEAU, .tableau = &classical, .stages = RK4_STAGES, .lane = BY_RK4,
+static const Method rk4 = {.name = "rk4", BY_TABLEAU, .tableau = &classical, .stages = RK4_STAGES,
+    .lane_method = METHOD_RK4,
     .uses_baumgarte_terms = !TREE, .power = 1.0 / 4.0, .rejected_h_rho = 2.8, .limiting_h_rho = 2.5,
     .error_nodes = rk4_error_nodes, .n_error_nodes = COUNT_OF(rk4_error_nodes)};
 
@@ -50,5 +51,5 @@ static const double dopri5_error_nodes[] = {0.0, 0.3, 0.8, 8.0 / 9.0, 1.0};
 
 /* The method of order 5 of Dormand and Prince. A decaying mode grows for h rho > 3.3. */
 static const Method dopri5 = {.name = "dopri5", BY_TABLEAU, .tableau = &dormand_prince, .stages = DOPRI5_STAGES,
-    .lane = BY_DOPRI5, .power = 1.0 / 5.0, .rejected_h_rho = 3.3, .limiting_h_rho = 2.7,
+    .lane_method = METHOD_DOPRI5, .power = 1.0 / 5.0, .rejected_h_rho = 3.3, .limiting_h_rho = 2.7,
     .error_nodes = dopri5_error_nodes, .n_error_nodes = COUNT_OF(dopri5_error_nodes)};

@@ -14,8 +14,8 @@ enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without de
 static void set_singular_policy(Integrator *run, int policy)
 {
     run->discrete.singular_policy = policy;
-    run->discrete.least = policy == SINGULAR_IGNORE ? NEARLY_SINGULAR : NEAR_SINGULAR_PIVOT;
-    run->discrete.least_size = policy == SINGULAR_IGNORE ? VANISHING : NEAR_SINGULAR_PIVOT;
+    run->discrete.min_pivot = policy == SINGULAR_IGNORE ? NEARLY_SINGULAR : NEAR_SINGULAR_PIVOT;
+    run->discrete.min_pivot_size = policy == SINGULAR_IGNORE ? VANISHING : NEAR_SINGULAR_PIVOT;
 }
 
 /*
@@ -24,31 +24,34 @@ static void set_singular_policy(Integrator *run, int policy)
  */
 static void begin_singular_policy(Integrator *run)
 {
-    set_singular_policy(run, run->near.n_undetected ? SINGULAR_IGNORE : SINGULAR_DETECT);
+    set_singular_policy(run, run->near_singular.n_steps_without_detection ? SINGULAR_IGNORE : SINGULAR_DETECT);
 }
 
 /*
  * Return whether a step with this status must be repeated with another policy near singular positions, which is then
- * set. NEAR repeats it: SINGULAR_PROJECT after SINGULAR_DETECT, else SINGULAR_IGNORE. Any other status ends the
- * attempts: the policy of states outside steps is set. After a step that could only be made with SINGULAR_IGNORE,
- * detection is suspended for 1, 3, 7, ... steps.
+ * set. NEAR_SINGULAR repeats it: SINGULAR_PROJECT after SINGULAR_DETECT, else SINGULAR_IGNORE. Any other status ends
+ * the attempts, and the policy of states outside steps follows from that of the step:
+ *   SINGULAR_DETECT: no singular position; SINGULAR_CONTINUE;
+ *   SINGULAR_PROJECT: SINGULAR_PROJECT_OR_IGNORE;
+ *   SINGULAR_IGNORE: it stays. After a detected position, detection is suspended for 1, 3, 7, ... and at most
+ *       2^MAX_SKIPPED_LOG2 - 1 steps; a step without detection counts as one of them.
  */
 static int advance_singular_policy(Integrator *run, int status)
 {
     const int policy = run->discrete.singular_policy;
-    if (status == NEAR) {
+    if (status == NEAR_SINGULAR) {
         set_singular_policy(run, policy == SINGULAR_DETECT ? SINGULAR_PROJECT : SINGULAR_IGNORE);
         return 1;
     }
     if (policy != SINGULAR_IGNORE)
         set_singular_policy(run, policy == SINGULAR_DETECT ? SINGULAR_CONTINUE : SINGULAR_PROJECT_OR_IGNORE);
     if (policy != SINGULAR_IGNORE) {
-        run->near.n_failed = 0;
-    } else if (run->near.n_undetected) {
-        run->near.n_undetected--;
+        run->near_singular.n_failed = 0;
+    } else if (run->near_singular.n_steps_without_detection) {
+        run->near_singular.n_steps_without_detection--;
     } else {
-        run->near.n_failed += run->near.n_failed < MAX_SKIPPED_LOG2;
-        run->near.n_undetected = (1L << run->near.n_failed) - 1;
+        run->near_singular.n_failed += run->near_singular.n_failed < MAX_SKIPPED_LOG2;
+        run->near_singular.n_steps_without_detection = (1L << run->near_singular.n_failed) - 1;
     }
     return 0;
 }

@@ -71,16 +71,16 @@ static void discard_stages(Step *step)
     step->term_range[0] = -1.0;
     step->may_force_oscillate = -1;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = INFINITY;
+        step->min_event_value[k] = INFINITY;
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->min_state[k] = INFINITY;
         step->max_state[k] = -INFINITY;
     }
     for (int k = 0; k < N_SWITCHES; k++)
-        step->passed[k] = 0;
+        step->is_ignored[k] = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = INFINITY;
-        step->rate[i][1] = -INFINITY;
+        step->gap_rate_range[i][0] = INFINITY;
+        step->gap_rate_range[i][1] = -INFINITY;
     }
 }
 
@@ -93,12 +93,12 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
     double *const values = step->stage_values[step->n_stored_stages];
     evaluate_event_functions(&run->discrete, rhs, values);
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = values[k] < step->lowest[k] ? values[k] : step->lowest[k];
+        step->min_event_value[k] = values[k] < step->min_event_value[k] ? values[k] : step->min_event_value[k];
     step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &rhs->clearance[i];
-        step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
-        step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
+        step->gap_rate_range[i][0] = min_of(step->gap_rate_range[i][0], joint->deltadot);
+        step->gap_rate_range[i][1] = max_of(step->gap_rate_range[i][1], joint->deltadot);
         values[STAGE_FORCES + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
         values[STAGE_GAP_RATES + i] = joint->deltadot;
     }
@@ -142,14 +142,14 @@ static void set_first_step(Integrator *run, double *stored_length, double first_
 {
     if (*stored_length > 0.0)
         run->control.h = *stored_length;
-    run->control.first = stored_length;
+    run->control.stored_first_length = stored_length;
     run->control.first_step_order = first_step_order;
 }
 
 /* Return whether the next step is the first one after a switching point: its stored length is one of after_switch. */
 static inline int is_first_after_switch(const Integrator *run)
 {
-    return run->control.first && run->control.first >= &run->control.after_switch[0][0];
+    return run->control.stored_first_length && run->control.stored_first_length >= &run->control.after_switch[0][0];
 }
 
 /* Set the length of the next step, s. */
@@ -174,13 +174,15 @@ static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 static double *get_end_rounding(Integrator *run); /* methods/taylor.c */
 
 /*
- * Project state y onto the constraint equations, unless Baumgarte stabilisation by the method replaces that. lost
- * (N_Y): rounding errors of y, NULL: they are not known.
+ * Project state y at time t in place onto the constraint equations, unless Baumgarte stabilisation by the method
+ * replaces that. If the projection cannot be computed, y stays. rounding_errors (N_Y): accumulated ones of y, updated;
+ * NULL: none are accumulated.
  */
-static void project_unless_stabilised(Integrator *run, double t, double *y, double *lost, const Parameters *p)
+static void project_unless_stabilised(
+    Integrator *run, double t, double *y, double *rounding_errors, const Parameters *p)
 {
     if (!uses_baumgarte_terms(run))
-        project_onto_constraints(run, t, y, lost, p);
+        project_onto_constraints(run, t, y, rounding_errors, p);
 }
 
 /*
@@ -208,7 +210,10 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 static int reject_nonfinite_error(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
 /* Return whether the error norm of a step exceeds the accepted one: 1, or infinity for fixed steps. */
-static int decide_step_rejection(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
+static int decide_step_rejection(const Integrator *run, const Step *step)
+{
+    return step->error > run->control.max_accepted_error;
+}
 
 /*
  * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there,

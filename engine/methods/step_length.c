@@ -25,15 +25,15 @@
 enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against the stiff method until it is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
-    MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
-    MAX_CONTRARY_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
+    MAX_OPPOSING_STEPS = 3 /* successive steps against the explicit method until the first change */,
+    MAX_OPPOSING_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
     CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
     MIN_COMPARE_STEPS = 8, MAX_COMPARE_STEPS = 200 /* steps after a change: the lengths of both methods are compared */,
     MAX_REDUCTIONS = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
 #define STIFF_COST 1.3             /* times a step of the explicit method: processor time of a stiff step */
-#define MAX_CONTRARY_GROWTH 2.0    /* with films: ratio of step lengths up to which the stiff method is left */
+#define MAX_OPPOSING_GROWTH 2.0    /* with films: ratio of step lengths up to which the stiff method is left */
 #define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
@@ -58,25 +58,30 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
     run->choice.explicit = METHODS[method]->stiff ? EXPLICIT_METHOD : METHODS[method];
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
-    run->choice.max_contrary_steps = MAX_CONTRARY_STEPS;
+    run->choice.max_opposing_steps = MAX_OPPOSING_STEPS;
     run->choice.return_steps = stiff_method && METHODS[method]->stiff ? 4 * MIN_RETURN_STEPS : MIN_RETURN_STEPS;
 }
 
 /*
- * Start the step-size control of a run at its current time. fixed_step: length of all steps, s, which are accepted with
- * any error; 0: error norms determine the length, and the first one is estimated later.
+ * Start the step-size control of a run at its current time, which also becomes the origin of the grid of fixed steps.
+ * fixed_step: length of all steps, s, which are accepted with any error; 0: steps with an error norm of at most 1 are
+ * accepted, and the first length is estimated later. The error before the first step counts as MIN_LAST_ERROR. The
+ * choice of the method (set_method_choice()) is not changed.
  */
 static void start_step_control(Integrator *run, double fixed_step)
 {
     run->control.fixed = run->control.h = fixed_step;
-    run->control.grid = run->t;
+    run->control.fixed_steps_origin = run->t;
     run->control.error_before = MIN_LAST_ERROR;
-    run->control.accept = fixed_step > 0.0 ? INFINITY : 1.0;
+    run->control.max_accepted_error = fixed_step > 0.0 ? INFINITY : 1.0;
 }
 
 /*
  * Change the method of a run from the explicit to the stiff one, or back, and reset the counters of the automatic
- * choice. If the explicit method was used for at most LASTING_STEPS steps, the next return needs twice as many steps.
+ * choice. On the way back, the length of the stiff method is stored as h_stiff; else h_stiff and the mean length of the
+ * stiff method become 0. After a method that controls its length, the next length is that of the last step. If the
+ * explicit method was used for at most LASTING_STEPS steps, the next return needs twice as many steps. Also called when
+ * the matrix of the stiff method is singular.
  */
 static void change_method(Integrator *run)
 {
@@ -90,7 +95,7 @@ static void change_method(Integrator *run)
     run->choice.method = stiff ? run->choice.explicit : run->choice.implicit;
     if (!stiff)
         run->choice.mean_length[1] = 0.0;
-    run->choice.n_contrary_steps = run->choice.n_unstable_steps = 0;
+    run->choice.n_opposing_steps = run->choice.n_unstable_steps = 0;
     run->choice.steps_since_change = 0;
 }
 
@@ -141,7 +146,7 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
  * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho (spectral
  * radius of the Jacobian, 1/s), or when its steps do not pay; the next switch to it then needs twice as many steps.
- * With films it is not left while its steps still grow (MAX_CONTRARY_GROWTH). A refused switch waits RECONSIDER_STEPS.
+ * With films it is not left while its steps still grow (MAX_OPPOSING_GROWTH). A refused switch waits RECONSIDER_STEPS.
  * Called after each accepted step.
  */
 static void switch_method_after_step(Integrator *run, const Parameters *p)
@@ -153,22 +158,22 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
     if (detect_slow_stiff_method(&run->choice, run->step.h) && run->choice.automatic) {
-        run->choice.max_contrary_steps *= run->choice.max_contrary_steps < MAX_CONTRARY_LIMIT ? 2 : 1;
+        run->choice.max_opposing_steps *= run->choice.max_opposing_steps < MAX_OPPOSING_LIMIT ? 2 : 1;
         run->choice.rho = 0.0;
         change_method(run);
         return;
     }
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY
         : stability > run->choice.method->limiting_h_rho || slower;
-    run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
+    run->choice.n_opposing_steps = against ? run->choice.n_opposing_steps + 1 : 0;
     run->choice.steps_since_change++;
-    if (run->choice.n_contrary_steps == 1)
-        run->choice.contrary_length = run->step.h;
-    const int n_needed = stiff ? run->choice.return_steps : run->choice.max_contrary_steps;
-    if (!run->choice.automatic || run->choice.n_contrary_steps < n_needed)
+    if (run->choice.n_opposing_steps == 1)
+        run->choice.opposing_length = run->step.h;
+    const int n_needed = stiff ? run->choice.return_steps : run->choice.max_opposing_steps;
+    if (!run->choice.automatic || run->choice.n_opposing_steps < n_needed)
         return;
-    if (stiff && has_films() && run->control.h > MAX_CONTRARY_GROWTH * run->choice.contrary_length) {
-        run->choice.n_contrary_steps = 0; /* its steps still grow, as after the start: their stiffness will show */
+    if (stiff && has_films() && run->control.h > MAX_OPPOSING_GROWTH * run->choice.opposing_length) {
+        run->choice.n_opposing_steps = 0; /* its steps still grow, as after the start: their stiffness will show */
         return;
     }
     const int is_estimated = stiff || run->choice.method->controls_length;
@@ -176,7 +181,7 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
     if (stiff ? rate * run->control.h < MAX_EXPLICIT_STABILITY : is_limited_by_stability(run, rate))
         change_method(run);
     else
-        run->choice.n_contrary_steps = -RECONSIDER_STEPS;
+        run->choice.n_opposing_steps = -RECONSIDER_STEPS;
     run->choice.rho = rate;
 }
 
@@ -184,7 +189,8 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
 static double compute_error_order(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
-    return run->control.first && run->control.first_step_order > 0.0 ? min_of(run->control.first_step_order, order)
+    return run->control.stored_first_length && run->control.first_step_order > 0.0
+        ? min_of(run->control.first_step_order, order)
                                                                      : order;
 }
 
@@ -209,27 +215,27 @@ static double compute_shrink_factor(Integrator *run, const Step *step)
             max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->rejected_h / attempt->h)));
     attempt->rejected_h = attempt->h;
     attempt->error = step->error;
-    run->control.too_long = attempt->h;
-    run->control.too_long_until = run->t + attempt->h;
+    run->control.rejected_length = attempt->h;
+    run->control.rejected_end = run->t + attempt->h;
     return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * approximate_power(step->error, -1.0 / order)));
 }
 
 /*
  * Store the length that would have fitted for the first step after an event, for the next event of the same kind. Does
  * nothing if the step is not a first one. After an onset the allowed error of straight motion is stored too. The mark
- * of a first step (control.first) is then cleared.
+ * of a first step (control.stored_first_length) is then cleared.
  */
 static void record_first_step_length(Integrator *run, const Step *step)
 {
-    if (!run->control.first)
+    if (!run->control.stored_first_length)
         return;
     const double safe = run->control.first_step_order > 0.0 ? SAFETY_ONSET : SAFETY;
     const double fits = safe * approximate_power(get_bounded_error(step), -1.0 / compute_error_order(run, step));
-    *run->control.first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
+    *run->control.stored_first_length = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
     if (run->control.first_step_order > 0.0 && run->control.onset_error_per_s > 0.0)
         run->control.onset[!!step->method->stiff] = run->control.onset_error_per_s
-            * approximate_power(*run->control.first, run->control.first_step_order - 1.0);
-    run->control.first = NULL;
+            * approximate_power(*run->control.stored_first_length, run->control.first_step_order - 1.0);
+    run->control.stored_first_length = NULL;
 }
 
 /*
@@ -249,10 +255,11 @@ static void update_observed_order(Integrator *run, const Step *step, int was_rej
 /*
  * Set the length run->control.h of the next step after an accepted one, by the PI controller and its limits; store its
  * error and, after an event, its length. was_rejected: whether an attempt at this step was rejected; the length then
- * does not grow. is_uncut: whether the step ended before the end of the run. A cut step with a small error does not
- * shorten the next one. Methods that control their length only get its largest value.
+ * does not grow. is_full_length: whether the step ended before the end of the run; otherwise a small error does not
+ * shorten the next step. Soon after a return to the explicit method, the rate rho estimated then limits the length too.
+ * Methods that control their length only get its largest value.
  */
-static void choose_next_length(Integrator *run, const Step *step, int was_rejected, int is_uncut)
+static void choose_next_length(Integrator *run, const Step *step, int was_rejected, int is_full_length)
 {
     if (step->method->controls_length) { /* up to the largest length of the next attempt */
         run->control.h = was_rejected ? step->h : get_max_attempt_length(run);
@@ -267,7 +274,7 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
     factor = min_of(max_factor, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
     record_first_step_length(run, step);
-    if (step->h * factor > run->control.h || (is_uncut && run->roots.suppressed_switch < 0) || factor < 1.0)
+    if (step->h * factor > run->control.h || (is_full_length && run->roots.suppressed_switch < 0) || factor < 1.0)
         run->control.h = step->h * factor;
 }
 
@@ -309,21 +316,23 @@ static double limit_length_by_flight(const Integrator *run, double h, const Para
  */
 static double limit_length_by_rejection(const Integrator *run, double h)
 {
-    const int is_limited = is_first_after_switch(run) && run->t < run->control.too_long_until;
-    return is_limited ? min_of(h, run->control.too_long) : h;
+    const int is_limited = is_first_after_switch(run) && run->t < run->control.rejected_end;
+    return is_limited ? min_of(h, run->control.rejected_length) : h;
 }
 
 /*
  * Return the length in s of a fixed step from the run's time to the next point of the grid that begins with the run.
- * end_time: set to the time at the end of that step, at most t_end. An event in between does not move the grid: the
- * step after it is shorter. A step repeated to end just after an event has the length control.h.
+ * end_time: set to the time at the end of that step, at most t_end. The number of passed grid points,
+ * control.n_grid_steps, is updated. An event in between does not move the grid: the step after it is shorter. A step
+ * repeated to end just after an event has the length control.h.
  */
 static double compute_fixed_step_length(Integrator *run, double t_end, double *end_time)
 {
     StepControl *control = &run->control;
     double h;
-    for (;; control->on_grid += 1.0) {
-        *end_time = compute_step_end(control->grid, t_end, control->fixed, control->on_grid + 1.0, &h);
+    for (;; control->n_grid_steps += 1.0) {
+        *end_time =
+            compute_step_end(control->fixed_steps_origin, t_end, control->fixed, control->n_grid_steps + 1.0, &h);
         if (*end_time > run->t || *end_time == t_end)
             break;
     }
@@ -348,20 +357,20 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
         h = compute_fixed_step_length(run, t_end, &end);
         run->discrete.is_frozen = DRIVE_IMPULSES; /* at the jump of a drive constraints have two rates */
     } else {
-        h = run->roots.suppressed_switch >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
+        h = run->roots.suppressed_switch >= 0 ? min_of(run->control.h, run->roots.suppression_length) : run->control.h;
         h = limit_length_by_flight(
             run, limit_length_by_separation(run, min_of(limit_length_by_rejection(run, h),
                 compute_flight_step_limit(run, NULL, p))), p);
         h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
     run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = left, .end = end, .time_magnitude = far,
-        .open = 1, .lane = run->choice.method->lane, .film_error_norm = INFINITY};
+        .is_open = 1, .lane_method = run->choice.method->lane_method, .film_error_norm = INFINITY};
 }
 
 /* Request another attempt of length run->control.attempt.h by the method that the run now has. Return 0: rejected. */
 static int request_retry(Integrator *run)
 {
-    run->control.attempt.lane = run->choice.method->lane;
+    run->control.attempt.lane_method = run->choice.method->lane_method;
     return 0;
 }
 
@@ -386,20 +395,20 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
     }
     if (trial_status == STOPPED || is_fixed)
         return 1;
-    const int is_within_tolerance = !trial_status && step->error <= run->control.accept;
+    const int is_within_tolerance = !trial_status && step->error <= run->control.max_accepted_error;
     const double end_error = is_within_tolerance ? estimate_film_error_at_ends(run, step, FILM_PART) : 0.0;
-    if (is_within_tolerance && !is_film_error_small(run, step, end_error)) {
+    if (is_within_tolerance && !can_skip_film_error(run, step, end_error)) {
         const double error = measure_film_error(run, step, p);
         if (!(error > FILM_ERROR_RATIO * attempt->film_error_norm)) /* not rounding */
             step->error = max_of(step->error, error);
-        attempt->film_error_norm = error > run->control.accept ? error : INFINITY;
+        attempt->film_error_norm = error > run->control.max_accepted_error ? error : INFINITY;
     }
-    const int is_good = !trial_status && step->error <= run->control.accept;
+    const int is_good = !trial_status && step->error <= run->control.max_accepted_error;
     const double min_length = MIN_STEP_FRACTION * attempt->time_magnitude;
     if (is_good && !method->stiff && run->choice.h_rho > method->rejected_h_rho) {
         count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed
-            && ++run->choice.n_unstable_steps >= run->choice.max_contrary_steps)
+            && ++run->choice.n_unstable_steps >= run->choice.max_opposing_steps)
             change_method(run);
         else
             attempt->h *= method->limiting_h_rho / run->choice.h_rho;
@@ -470,7 +479,7 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
 }
 
 /* Close the attempts at a step after one of them was accepted. */
-static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
+static void close_attempt(Integrator *run) { run->control.attempt.is_open = 0; }
 
 /*
  * Try steps (shorter, or by another method) until one is accepted or fails, and close the attempts. Return 0 or the

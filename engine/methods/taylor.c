@@ -12,12 +12,12 @@ enum { MIN_TAYLOR_ORDER = 4 };
 static const double taylor_error_nodes[] = {0.0};
 
 /*
- * Return the order of the Taylor series for a relative tolerance: ceil(1 - TAYLOR_EFFORT ln tolerance), between
- * MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles and speeds have the same tolerance.
+ * Return the order of the Taylor series for a relative tolerance: ceil(1 - TAYLOR_ORDERS_PER_E_FOLD ln tolerance),
+ * between MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles and speeds have the same tolerance.
  */
 static int choose_taylor_order(double tolerance)
 {
-    const double order = ceil(1.0 - TAYLOR_EFFORT * log(tolerance));
+    const double order = ceil(1.0 - TAYLOR_ORDERS_PER_E_FOLD * log(tolerance));
     return order > TAYLOR_ORDERS ? TAYLOR_ORDERS : order < MIN_TAYLOR_ORDER ? MIN_TAYLOR_ORDER : (int)order;
 }
 
@@ -33,7 +33,7 @@ static void reject_step_by_defect(const Integrator *run, const Step *step) { (vo
  * Subtract one evaluation from the counts: the second evaluation at the end of a repeated series step does not count,
  * as in lanes.
  */
-static void uncount_end_evaluation(Integrator *run) { count_evaluations(run, -1); }
+static void subtract_end_evaluation(Integrator *run) { count_evaluations(run, -1); }
 
 #include "../scalar_simd/taylor.h"
 
@@ -66,7 +66,7 @@ static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step 
     if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
         step->method = &dop853; /* links in one line: its right-hand side passes singular positions */
         const int status_of_other = dop853_try_step(run, h, p, step);
-        memset(run->series.next_lost, 0, sizeof run->series.next_lost);
+        memset(run->series.end_rounding_errors, 0, sizeof run->series.end_rounding_errors);
         return status_of_other;
     }
     const int status_of_step = taylor_try_series_step(run, h, p, step);
@@ -115,7 +115,7 @@ static const Method taylor = {.name = "taylor",
     .try = taylor_try_step,
     .dense = taylor_compute_dense_output,
     .interpolate = taylor_interpolate,
-    .lane = BY_TAYLOR,
+    .lane_method = METHOD_TAYLOR,
     .power = 1.0 / TAYLOR_ORDERS,
     .rejected_h_rho = INFINITY,
     .limiting_h_rho = 1.0, /* taylor_estimate_stiffness() stores larger values only */
@@ -126,11 +126,12 @@ static const Method taylor = {.name = "taylor",
 
 /*
  * Set the order of the series of a run, and the allowed defect at the end of a step, from the relative tolerance of the
- * steps: 2^5 tolerances or TAYLOR_ROUNDING, less at low orders. With `auto`, it is TAYLOR_STRICTNESS times smaller.
+ * steps: 2^5 tolerances or TAYLOR_ROUNDING, less at low orders. With `auto`, it is TAYLOR_TOLERANCE_RATIO times
+ * smaller.
  */
 static void set_series_order(Integrator *run, double tolerance)
 {
-    run->series.strictness = run->choice.automatic ? TAYLOR_STRICTNESS : 1.0;
+    run->series.strictness = run->choice.automatic ? TAYLOR_TOLERANCE_RATIO : 1.0;
     tolerance /= run->series.strictness;
     run->series.order = choose_taylor_order(tolerance);
     const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT_LOG2 ? run->series.order - 4 : TAYLOR_DEFECT_LOG2;
@@ -140,7 +141,7 @@ static void set_series_order(Integrator *run, double tolerance)
 /* Return the rounding errors (N_Y) of the state at the end of the tried step; NULL unless Taylor's method is chosen. */
 static double *get_end_rounding(Integrator *run)
 {
-    return run->choice.method == &taylor ? run->series.next_lost : NULL;
+    return run->choice.method == &taylor ? run->series.end_rounding_errors : NULL;
 }
 
 /*
@@ -151,7 +152,8 @@ static void discard_series(Integrator *run, int is_whole)
 {
     run->series.ready = 0;
     for (int i = 0; i < N_Y; i++)
-        run->series.lost[i] = is_whole && run->choice.method == &taylor ? run->series.next_lost[i] : 0.0;
+        run->series.rounding_errors[i] =
+            is_whole && run->choice.method == &taylor ? run->series.end_rounding_errors[i] : 0.0;
 }
 
 /*

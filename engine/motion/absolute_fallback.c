@@ -4,8 +4,8 @@
  * Compute tree accelerations a and multipliers of the closures by the equations of all bodies, where a pivot of the
  * tree vanishes. Return 0 or a status.
  *
- * If near-singular positions are to be detected (discrete->least > NEARLY_SINGULAR), return NEAR at one of them;
- * elsewhere the reduced equations are solved with the usual limits of pivots.
+ * If near-singular positions are to be detected (discrete->min_pivot > NEARLY_SINGULAR), return NEAR_SINGULAR at one of
+ * them; elsewhere the reduced equations are solved with the usual limits of pivots.
  */
 int solve_by_absolute_equations(double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -16,13 +16,13 @@ int solve_by_absolute_equations(double t, const double *q, const double *v, cons
     discrete_state.is_frozen = 0; /* switching functions have other indices there */
     expand(t, q, v, p, all_q, all_v);
     const int status = dynamics(t, all_q, all_v, &discrete_state, p, all_a, &all_bodies);
-    if (discrete->least > NEARLY_SINGULAR && status == NEAR)
-        return NEAR;
-    if (discrete->least > NEARLY_SINGULAR && status != STOPPED) {
+    if (discrete->min_pivot > NEARLY_SINGULAR && status == NEAR_SINGULAR)
+        return NEAR_SINGULAR;
+    if (discrete->min_pivot > NEARLY_SINGULAR && status != STOPPED) {
         /* not a singular position: solve with the usual limits of pivots */
         discrete_state = *discrete;
-        discrete_state.least = NEARLY_SINGULAR;
-        discrete_state.least_size = VANISHING;
+        discrete_state.min_pivot = NEARLY_SINGULAR;
+        discrete_state.min_pivot_size = VANISHING;
         return reduced_dynamics(t, q, v, &discrete_state, p, a, rhs);
     }
     reduce_accelerations(t, all_q, all_v, all_a, p, a);

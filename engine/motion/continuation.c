@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
-#define MAX_CLOSING_MOVE 0.1 /* rad: largest projection of a stage onto the constraints */
+#define MAX_CLOSING_DISPLACEMENT 0.1 /* rad: largest projection of a stage onto the constraints */
 #define NODE_ANGLE (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
 #define CONTINUATION_TOL 1e-7 /* of the accelerations: largest difference of the polynomials of the last two degrees */
 #define WIDE_NODE_ANGLE 4e-2 /* the same for smooth motion: rounding at distant nodes is amplified less */
@@ -101,7 +101,7 @@ static int continue_motion(
     for (int pass = -N_WIDE_PASSES; pass < N_NARROW_PASSES; pass++) {
         const double node_angle =
             pass < 0 ? WIDE_NODE_ANGLE * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_ANGLE * ldexp(1.0, pass);
-        int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
+        int status = discrete->cancellation && poll_cancellation(discrete->cancellation) ? STOPPED : 0;
         *interpolated_motion = (ContinuedMotion){0};
         for (int k = 1; k <= N_SIDE_NODES && !status; k++)
             for (int sign = -1; sign <= 1 && !status; sign += 2) {
@@ -130,8 +130,8 @@ static int continue_motion(
 static DiscreteState copy_state_with_usual_pivot_limits(const DiscreteState *discrete)
 {
     DiscreteState discrete_state = *discrete;
-    discrete_state.least = NEARLY_SINGULAR;
-    discrete_state.least_size = VANISHING;
+    discrete_state.min_pivot = NEARLY_SINGULAR;
+    discrete_state.min_pivot_size = VANISHING;
     return discrete_state;
 }
 
@@ -155,7 +155,7 @@ static int copy_continued_motion(const double *y, const ContinuedMotion *continu
 /*
  * Compute the rates dy of the integrated state y and the outputs rhs. Return 0 or a status. Near a singular position,
  * discrete->singular_policy decides: the state is projected and evaluated there, the motion is continued from both
- * sides, NEAR is returned, or the state is evaluated without treatment. y is not changed.
+ * sides, NEAR_SINGULAR is returned, or the state is evaluated without treatment. y is not changed.
  */
 int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
     RhsOutputs *rhs)
@@ -164,7 +164,7 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
         double projected[N_Y];
         memcpy(projected, y, sizeof projected);
-        if (!project_and_evaluate_state(t, projected, discrete, p, MAX_CLOSING_MOVE, dy, rhs)) {
+        if (!project_and_evaluate_state(t, projected, discrete, p, MAX_CLOSING_DISPLACEMENT, dy, rhs)) {
             for (int k = 0; k < N_X; k++)
                 dy[k] = y[N_X + k];
             return 0;
@@ -173,12 +173,12 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
     const int status = evaluate_rhs(t, y, discrete, p, dy, rhs);
     const int open = discrete->singular_policy == SINGULAR_PROJECT
         || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE; /* near enough that it cannot be closed */
-    if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR && (status || !open)))
+    if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR_SINGULAR && (status || !open)))
         return status;
     if (continue_motion(t, y, discrete, p, &continued))
         return copy_continued_motion(y, &continued, dy, rhs);
     if (discrete->singular_policy == SINGULAR_PROJECT)
-        return NEAR;
+        return NEAR_SINGULAR;
     DiscreteState discrete_state = copy_state_with_usual_pivot_limits(discrete);
     return evaluate_rhs(t, y, &discrete_state, p, dy, rhs);
 }
@@ -200,7 +200,8 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
     RhsOutputs rhs;
     ContinuedMotion continued;
     DiscreteState discrete_state = *discrete;
-    if (evaluate_rhs(t, y, &discrete_state, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &continued)) {
+    if (evaluate_rhs(t, y, &discrete_state, p, dy, &rhs) != NEAR_SINGULAR
+        || !continue_motion(t, y, discrete, p, &continued)) {
         discrete_state = copy_state_with_usual_pivot_limits(discrete);
         return solve_correction(t, y, &discrete_state, p, dq, dv, residual);
     }

@@ -54,7 +54,7 @@ static void extrapolate_singular_loops(
 {
     double fastest = 1e-300;
     for (int k = 0; k < N_DEPENDENT; k++)
-        fastest = max_of(fastest, fabs(discrete->chain.v[k]));
+        fastest = max_of(fastest, fabs(discrete->accepted_loops.v[k]));
     for (double e = 1e-7; e < 0.05; e *= 10.0)
         for (int sign = -1; sign <= 1; sign += 2) {
             const double h = sign * e / fastest;
@@ -68,7 +68,7 @@ static void extrapolate_singular_loops(
             evaluate_loop_directions(t, tree->q, discrete, p, tree->q);
             return;
         }
-    restore_driven_loops(&discrete->chain, tree);
+    restore_driven_loops(&discrete->accepted_loops, tree);
 }
 
 /*
@@ -90,7 +90,7 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 /*
  * Compute the integrated state y, except internal states of laws, from the state of all bodies, (q, v, works) in
  * `absolute_state`. The driven loops are solved at time t and stored in `discrete`; later times are solved from there.
- * A failure is stored in discrete->chain.failed.
+ * A failure is stored in discrete->accepted_loops.failed.
  */
 void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)

@@ -90,9 +90,9 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 #if HAS_ABSOLUTE_FALLBACK
 /*
  * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
- * engine solves so only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
+ * engine uses this fallback only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
  */
-int gudgeon_reduced_rescue(
+int gudgeon_absolute_fallback(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
     DiscreteState discrete_state = {0};
@@ -114,10 +114,10 @@ int gudgeon_driven_loops(double t, double *q, const double *p, double *v)
     DiscreteState discrete_state = {0};
     solve_driven_loops(t, q, &discrete_state, (const Parameters *)p);
     for (int k = 0; k < N_DEPENDENT; k++)
-        q[k] = discrete_state.chain.q[k];
+        q[k] = discrete_state.accepted_loops.q[k];
     for (int k = 0; k < 3 * N_DEPENDENT; k++)
-        v[k] = discrete_state.chain.v[k];
-    return discrete_state.chain.failed;
+        v[k] = discrete_state.accepted_loops.v[k];
+    return discrete_state.accepted_loops.failed;
 }
 
 /*
@@ -134,7 +134,7 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
     RhsOutputs rhs;
     read_discrete_state(discrete, &discrete_state);
     solve_driven_loops(t, q + N_X, &discrete_state, p);
-    const double speed = hypot(discrete_state.chain.v[0], 1e-6), ahead = 0.1 / speed;
+    const double speed = hypot(discrete_state.accepted_loops.v[0], 1e-6), ahead = 0.1 / speed;
     for (int k = 0; k < N_X; k++) {
         y[k] = q[k];
         y[N_X + k] = v[k];

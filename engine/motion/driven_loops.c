@@ -4,8 +4,8 @@
  * The motion thus keeps its branch, and the right-hand side remains a function of time and state.
  */
 enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
-#define MAX_LOOP_MOVE 0.1    /* rad, or fraction of the size: longer moves are made in parts */
-#define SINGULAR_MOVE 1e-2 /* the same: motion of the fastest coordinate between nodes near a singular position */
+#define MAX_LOOP_DISPLACEMENT 0.1    /* rad, or fraction of the size: longer moves are made in parts */
+#define SINGULAR_NODE_DISPLACEMENT 1e-2 /* the same: motion of the fastest coordinate from node to node */
 #define INTERPOLATION_TOL 1e-8   /* the same: largest difference of polynomials through the nodes */
 #define LOOP_POSITION_TOL 1e-3 /* the same: largest difference of positions from the integral of the rates */
 
@@ -93,8 +93,8 @@ static double compute_loop_position_error(double h, const DrivenLoops *loops_bef
  * of third order is the guess. Return 0, or the number of a closure if they cannot be solved or the branch is not
  * certain.
  *
- * The branch is certain if the Newton steps sum up to at most MAX_LOOP_MOVE, and the positions agree with the integral
- * of the rates within LOOP_POSITION_TOL.
+ * The branch is certain if the Newton steps sum up to at most MAX_LOOP_DISPLACEMENT, and the positions agree with the
+ * integral of the rates within LOOP_POSITION_TOL.
  */
 static int advance_driven_loops(double t, const DrivenLoops *loops_before, const DiscreteState *discrete,
     const Parameters *p, TreeState *tree)
@@ -109,7 +109,7 @@ static int advance_driven_loops(double t, const DrivenLoops *loops_before, const
         status = compute_loop_rates(t, tree->q, discrete, p, tree->v);
     if (status)
         return status;
-    return step_sum <= MAX_LOOP_MOVE
+    return step_sum <= MAX_LOOP_DISPLACEMENT
         && compute_loop_position_error(h, loops_before, tree, p) <= LOOP_POSITION_TOL ? 0 : 1;
 }
 
@@ -120,7 +120,7 @@ static int advance_driven_loops(double t, const DrivenLoops *loops_before, const
  */
 static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
-    DrivenLoops start = discrete->chain;
+    DrivenLoops start = discrete->accepted_loops;
     double h = 0.5 * (t - start.t);
     int status = 1;
     for (int part = 0; part < MAX_LOOP_PARTS; part++) {
@@ -147,16 +147,17 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
 /*
  * Interpolate the driven loops at a time at which a loop is in a singular position (a dead centre: links in one line),
  * where its closures do not determine it. One Lagrange polynomial in time passes through SINGULAR_NODES regular states
- * on either side of t, spaced so that the fastest loop coordinate moves by SINGULAR_MOVE. Positions and all three rates
- * are interpolated into `loops`; its directions are not set. Return 0, or nonzero if nothing moves, a node cannot be
- * solved, or the polynomial through one node fewer on either side deviates by more than INTERPOLATION_TOL.
+ * on either side of t, spaced so that the fastest loop coordinate moves by SINGULAR_NODE_DISPLACEMENT. Positions and
+ * all three rates are interpolated into `loops`; its directions are not set. Return 0, or nonzero if nothing moves, a
+ * node cannot be solved, or the polynomial through one node fewer on either side deviates by more than
+ * INTERPOLATION_TOL.
  */
 static int interpolate_singular_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
 {
     double fastest = 0.0, lower[N_DEPENDENT];
-    int status = discrete->chain.failed;
+    int status = discrete->accepted_loops.failed;
     for (int k = 0; k < N_DEPENDENT; k++)
-        fastest = max_of(fastest, fabs(discrete->chain.v[k]) * get_loop_step_scale(p, k));
+        fastest = max_of(fastest, fabs(discrete->accepted_loops.v[k]) * get_loop_step_scale(p, k));
     if (status || !(fastest > 0.0))
         return 1;
     *loops = (DrivenLoops){.t = t};
@@ -164,9 +165,9 @@ static int interpolate_singular_loops(double t, const DiscreteState *discrete, c
         lower[i] = 0.0;
     for (int j = 0; j < 2 * SINGULAR_NODES && !status; j++) {
         const int k = j / 2 + 1;
-        const double t_node = t + (j % 2 ? -k : k) * SINGULAR_MOVE / fastest;
+        const double t_node = t + (j % 2 ? -k : k) * SINGULAR_NODE_DISPLACEMENT / fastest;
         TreeState tree;
-        if (advance_driven_loops(t_node, &discrete->chain, discrete, p, &tree))
+        if (advance_driven_loops(t_node, &discrete->accepted_loops, discrete, p, &tree))
             status = follow_driven_loops_in_parts(t_node, discrete, p, &tree);
         if (!status)
             status = compute_third_loop_rates(t_node, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_DEPENDENT);
@@ -197,26 +198,27 @@ static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *d
             interpolated.q[k] = loops.q[k];
         loops = interpolated;
     }
-    discrete->chain = discrete->recent = loops;
+    discrete->accepted_loops = discrete->latest_loops = loops;
     return loops.failed;
 }
 
 /*
- * Compute the driven loops at time t in `tree`, from the last accepted state; those solved last are reused at the same
- * time (SMOOTH_DRIVEN_LOOPS). If one move fails, they are solved in parts, then interpolated. Return 0, or the number
- * of a closure that cannot be followed; a failure stored by solve_driven_loops() is returned at once.
+ * Compute the driven loops at time t in `tree`, from the last accepted state; the loops of the last evaluated time are
+ * reused at that time (SMOOTH_DRIVEN_LOOPS). They are solved in one move (advance_driven_loops()); if that fails, in
+ * parts; if that fails too, interpolated past a singular position. Return 0, or the number of a closure that cannot be
+ * followed; a failure stored by solve_driven_loops() is returned at once.
  */
 static inline int follow_driven_loops(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
-    if (discrete->chain.failed)
-        return discrete->chain.failed;
+    if (discrete->accepted_loops.failed)
+        return discrete->accepted_loops.failed;
 #if SMOOTH_DRIVEN_LOOPS
-    if (discrete->recent.t == t) {
-        restore_driven_loops(&discrete->recent, tree);
+    if (discrete->latest_loops.t == t) {
+        restore_driven_loops(&discrete->latest_loops, tree);
         return 0;
     }
 #endif
-    if (!advance_driven_loops(t, &discrete->chain, discrete, p, tree))
+    if (!advance_driven_loops(t, &discrete->accepted_loops, discrete, p, tree))
         return 0;
     const int status = follow_driven_loops_in_parts(t, discrete, p, tree);
     DrivenLoops interpolated;
@@ -237,8 +239,8 @@ static inline int build_tree_state(double t, const double *y, DiscreteState *dis
 {
     const int status = follow_driven_loops(t, discrete, p, tree);
 #if SMOOTH_DRIVEN_LOOPS
-    if (!status && discrete->recent.t != t)
-        store_driven_loops(t, tree, &discrete->recent);
+    if (!status && discrete->latest_loops.t != t)
+        store_driven_loops(t, tree, &discrete->latest_loops);
 #endif
     for (int k = 0; k < N_X; k++) {
         tree->q[k] = y[k];
@@ -249,7 +251,7 @@ static inline int build_tree_state(double t, const double *y, DiscreteState *dis
 
 /*
  * Solve the driven loops at time t from a guess of their coordinates (N_DEPENDENT), and store them in `discrete`; later
- * times are solved from there. A failure is stored in discrete->chain.failed. Called where a run starts.
+ * times are solved from there. A failure is stored in discrete->accepted_loops.failed. Called where a run starts.
  */
 void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {
@@ -261,5 +263,5 @@ void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, 
     if (!status)
         status = compute_loop_rates(t, tree.q, discrete, p, tree.v);
     const int last = accept_driven_loops(t, &tree, discrete, p);
-    discrete->chain.failed = status ? status : last;
+    discrete->accepted_loops.failed = status ? status : last;
 }

@@ -2,7 +2,8 @@
 
 /*
  * Compute the rates dy of the integrated state y in absolute coordinates (q, v, works) and the outputs rhs. Return 0 or
- * a status.
+ * a status. One of three definitions is compiled: this one without tree coordinates, motion/driven.c with driven loops,
+ * scalar_simd/motion.h (MOTION) for other trees.
  */
 int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {

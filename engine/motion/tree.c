@@ -2,7 +2,7 @@
 #include "../scalar_simd/scalar.h"
 
 #define FUNCTION_LINKAGE
-#define MOTION evaluate_rhs
+#define MOTION evaluate_rhs /* defined in motion.h; other scenes: motion/full.c, motion/driven.c */
 #define REDUCED_DYNAMICS reduced_dynamics
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi)
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot)

@@ -48,9 +48,9 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 #if HAS_ABSOLUTE_FALLBACK
 /*
  * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
- * engine solves so only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
+ * engine uses this fallback only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
  */
-int gudgeon_reduced_rescue(
+int gudgeon_absolute_fallback(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
     DiscreteState discrete_state = {0};

@@ -168,10 +168,12 @@ static double compute_neighbouring_states(const Integrator *run, double t, const
 }
 
 /*
- * Return whether the accelerations `a` (N_Q) of a state are too sensitive to be compared. Reasons: the motion is
- * continued past a singular position; random changes of positions within rounding, and of the time where drives
- * determine loops, change `a` by 0.1 `relative_difference` of `acceleration_scale`; the perturbed accelerations cannot
- * be computed. Called only after a difference of accelerations exceeds its limit.
+ * Return whether the accelerations `a` (N_Q) of a state are too sensitive to be compared. Called only after a
+ * difference of accelerations exceeds its limit. Reasons:
+ *   - the motion is continued past a singular position;
+ *   - random changes of positions within rounding, and of the time where drives determine loops, change `a` by 0.1
+ *       relative_difference of acceleration_scale;
+ *   - the perturbed accelerations cannot be computed.
  */
 static int is_comparison_ill_conditioned(Integrator *run, double t, const double *y, const double *a,
     const double *acceleration_scale,
@@ -337,7 +339,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_MIN_STEPS; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
-        if (!(g < 0.0) || step->passed[k] || k == run->roots.suppressed_switch || is_continuous_switch[k]
+        if (!(g < 0.0) || step->is_ignored[k] || k == run->roots.suppressed_switch || is_continuous_switch[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues stages = get_stage_values(step, N_CLEARANCES + k);

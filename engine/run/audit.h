@@ -32,8 +32,9 @@ typedef struct {
     int end_event;                 /* event that ends the step, -1: none */
     double event_before[AT_LEAST_ONE(N_USER_EVENTS)];   /* values at the beginning of the step */
     unsigned char has_zero[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether the event function has a zero in the step */
-    unsigned char has_left_zero[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether it exceeded rounding since its last event */
-    int n_noise_events[AT_LEAST_ONE(N_USER_EVENTS)];    /* successive events without that */
+    /* whether it exceeded rounding since its last event */
+    unsigned char was_nonzero_since_event[AT_LEAST_ONE(N_USER_EVENTS)];
+    int n_rounding_events[AT_LEAST_ONE(N_USER_EVENTS)];    /* successive events without that */
     AuditRecord record[N_CHECKS];
 } Audit;
 

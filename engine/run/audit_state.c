@@ -1,10 +1,12 @@
 /* The audit of a run at the end of each step (run/audit.c), and the functions that start and report the audit. */
 
 /*
- * Check a user-defined event at the end of a step, and record CHECK_event. The violation is infinite if a zero in the
- * step is not in the list of events, or if rounding around zero is listed as AUDIT_WRONG_STEPS successive events.
- * n_events_before: number of events in the list before the step. Clears has_zero, and has_left_zero after a listed
- * event. Called by audit_state() for each user-defined event.
+ * Check a user-defined event at the end of a step, and record CHECK_event. The violation is infinite in two cases.
+ * First, a zero in the step is not in the list of events: one that check_event_zeros() found (has_zero), or, at the
+ * event that ends the step, a value that falls below AUDIT_ZERO_FRACTION of its size before. Second, rounding around
+ * zero is listed as AUDIT_WRONG_STEPS successive events. n_events_before: number of events in the list before the step.
+ * Clears has_zero, and was_nonzero_since_event after a listed event. Called by audit_state() for each user-defined
+ * event.
  */
 static void check_user_event(Integrator *run, int event, int n_events_before)
 {
@@ -20,10 +22,11 @@ static void check_user_event(Integrator *run, int event, int n_events_before)
     if ((is_end_event || audit->has_zero[event]) && !is_recorded)
         record_check(audit, CHECK_event, INFINITY, 1.0, run->t, event);
     if (is_recorded)
-        audit->n_noise_events[event] = audit->has_left_zero[event] ? 0 : audit->n_noise_events[event] + 1;
-    if (audit->n_noise_events[event] >= AUDIT_WRONG_STEPS)
+        audit->n_rounding_events[event] =
+            audit->was_nonzero_since_event[event] ? 0 : audit->n_rounding_events[event] + 1;
+    if (audit->n_rounding_events[event] >= AUDIT_WRONG_STEPS)
         record_check(audit, CHECK_event, INFINITY, 1.0, run->t, event);
-    audit->has_left_zero[event] = is_recorded ? 0 : audit->has_left_zero[event];
+    audit->was_nonzero_since_event[event] = is_recorded ? 0 : audit->was_nonzero_since_event[event];
     audit->has_zero[event] = 0;
 }
 

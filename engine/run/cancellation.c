@@ -24,36 +24,38 @@ double read_clock(void)
  * according to their cost. Without a function, the clock is never read again. Called by is_cancelled() after that
  * number of right-hand sides, and within dense solvers.
  */
-int poll_cancellation(Cancellation *token)
+int poll_cancellation(Cancellation *cancellation)
 {
-    token->count = 0;
-    if (!token->ask)
-        token->poll_after = LONG_MAX;
-    if (token->ask && !token->stop) {
-        const double time_now = read_clock(), elapsed = time_now - token->last;
-        token->last = time_now;
-        if (elapsed < 0.1 * token->every)
-            token->poll_after = token->poll_after < MAX_POLL_AFTER / 2 ? 2 * token->poll_after + 1 : MAX_POLL_AFTER;
-        else if (elapsed > 0.5 * token->every)
-            token->poll_after = (token->poll_after + 1) / 2;
-        if (time_now >= token->next || elapsed < 0.0) {
-            token->stop = token->ask(token->caller) != 0;
-            token->last = read_clock();
-            token->next = token->last + token->every;
+    cancellation->count = 0;
+    if (!cancellation->is_stop_requested)
+        cancellation->poll_after = LONG_MAX;
+    if (cancellation->is_stop_requested && !cancellation->stop) {
+        const double time_now = read_clock(), elapsed = time_now - cancellation->last_reading;
+        cancellation->last_reading = time_now;
+        if (elapsed < 0.1 * cancellation->poll_interval)
+            cancellation->poll_after =
+                cancellation->poll_after < MAX_POLL_AFTER / 2 ? 2 * cancellation->poll_after + 1 : MAX_POLL_AFTER;
+        else if (elapsed > 0.5 * cancellation->poll_interval)
+            cancellation->poll_after = (cancellation->poll_after + 1) / 2;
+        if (time_now >= cancellation->next_poll || elapsed < 0.0) {
+            cancellation->stop = cancellation->is_stop_requested(cancellation->context) != 0;
+            cancellation->last_reading = read_clock();
+            cancellation->next_poll = cancellation->last_reading + cancellation->poll_interval;
         }
     }
-    if (token->stop)
-        token->poll_after = 0;
-    return token->stop && !token->hold;
+    if (cancellation->stop)
+        cancellation->poll_after = 0;
+    return cancellation->stop && !cancellation->is_deferred;
 }
 
 /*
  * Initialize a cancellation token that calls is_stop_requested(context) every `poll_interval` seconds, first at the
  * next poll. A nonzero return value requests a stop. is_stop_requested NULL: never.
  */
-void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval)
+void start_polling(Cancellation *cancellation, int (*is_stop_requested)(void *), void *context, double poll_interval)
 {
-    *token = (Cancellation){.ask = is_stop_requested, .caller = context, .every = poll_interval};
+    *cancellation = (Cancellation){
+        .is_stop_requested = is_stop_requested, .context = context, .poll_interval = poll_interval};
 }
 
 /*
@@ -116,15 +118,16 @@ int detect_stall(ProgressMonitor *monitor, double t, double t_end)
         return 0;
     const double steps_left = estimate_remaining_steps(monitor, t, t_end);
     monitor->slowdown =
-        steps_left > MAX_STEPS_LEFT_SLOW && monitor->gain * (double)monitor->good < MIN_GAIN_RATIO * monitor->sum;
+        steps_left > MAX_STEPS_LEFT_SLOW
+        && monitor->gain * (double)monitor->n_gains < MIN_GAIN_RATIO * monitor->gain_sum;
     if (steps_left > MAX_STEPS_LEFT || monitor->slowdown) {
-        monitor->slow = monitor->gain > 1.1 * gain_before ? 0 : monitor->slow + 1;
+        monitor->n_slow_checks = monitor->gain > 1.1 * gain_before ? 0 : monitor->n_slow_checks + 1;
     } else {
-        monitor->slow = 0;
-        monitor->sum += monitor->gain;
-        monitor->good++;
+        monitor->n_slow_checks = 0;
+        monitor->gain_sum += monitor->gain;
+        monitor->n_gains++;
     }
-    return monitor->slow >= MAX_SLOW_CHECKS;
+    return monitor->n_slow_checks >= MAX_SLOW_CHECKS;
 }
 
 /*

@@ -40,8 +40,10 @@ static int update_branches_after_event(Integrator *run, int crossed_switch, cons
 
 /*
  * Return whether a user-defined event function has the same sign just after its zero as before, because branches have
- * changed there. branches_before: branches of the switching functions before the event. Return 0 if no branch has
- * changed or the evaluation fails.
+ * changed there. apply_event() then does not count the zero as an event: the sign is not reversed and nothing is
+ * recorded. The function is evaluated one event location tolerance later, along the rates, and compared with the stored
+ * event_sign. branches_before: branches of the switching functions before the event. Return 0 if no branch has changed
+ * or the evaluation fails.
  */
 static int has_equal_sign_after_event(Integrator *run, int event, const double *branches_before, const Parameters *p)
 {
@@ -268,7 +270,7 @@ static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->discrete.contact[i].closed && run->contacts.lasting[i].t_on == run->t && is_compliant(i))
+        if (run->discrete.contact[i].closed && run->contacts.ongoing[i].t_on == run->t && is_compliant(i))
             record_force(run, i, run->t, compute_force_magnitude(&run->rhs.clearance[i]));
 }
 

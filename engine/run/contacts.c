@@ -7,13 +7,13 @@
 
 /*
  * Return the threshold in m (negative) below which the event function of a joint's gap has reached zero: above it, its
- * sign is rounding. For compliant surfaces it is minus 1e-10 of the largest valid penetration, SHALLOW at most; for
- * rigid ones minus RIGID_GAP_ROUNDING clearances. Used in the search for zeros of gaps, after events, and at the start
- * for contacts that touch.
+ * sign is rounding. For compliant surfaces it is minus 1e-10 of the largest valid penetration, MIN_TOUCHING_PENETRATION
+ * at most; for rigid ones minus RIGID_GAP_ROUNDING clearances. Used in the search for zeros of gaps, after events, and
+ * at the start for contacts that touch.
  */
 static double compute_gap_event_threshold(const Parameters *p, int joint)
 {
-    return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * max_valid_penetration(p, joint))
+    return is_compliant(joint) ? -min_of(MIN_TOUCHING_PENETRATION, 1e-10 * max_valid_penetration(p, joint))
         : -RIGID_GAP_ROUNDING * radial_clearance(p, joint);
 }
 
@@ -33,7 +33,7 @@ static void reset_internal_states(Integrator *run, int joint)
  */
 static void start_contact_record(Integrator *run, int joint, double t, double deltadot)
 {
-    run->contacts.lasting[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
+    run->contacts.ongoing[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
 }
 
 /*
@@ -73,9 +73,10 @@ static int append_contact(Integrator *run, const Impact *contact)
 }
 
 /*
- * Append an impact of rigid surfaces to the list, and count an onset if its joint was open (`is_onset`). With
- * `may_merge`, the impulse is added to the last row of the same joint at this time instead, if there is one. Return 0,
- * or CHATTERING if the list is full. Called for each contact of an impact with a positive impulse.
+ * Append an impact of rigid surfaces to the list, and count an onset if its joint was open (`is_onset`). Its F_peak is
+ * the impulse, N s. With `may_merge`, the impulse is added to the last row of the same joint at this time instead, if
+ * there is one. Return 0, or CHATTERING if the list is full. Called for each contact of an impact with a positive
+ * impulse.
  */
 static inline int append_impact(Integrator *run, const Impact *impact, int may_merge, int is_onset)
 {
@@ -104,9 +105,9 @@ static inline void update_peak_force(Integrator *run, int joint, double t, doubl
  */
 static inline void update_contact_peak_force(Integrator *run, int joint, double t, double F)
 {
-    if (run->discrete.contact[joint].closed && F > run->contacts.lasting[joint].F_peak) {
-        run->contacts.lasting[joint].F_peak = F;
-        run->contacts.lasting[joint].t_peak = t;
+    if (run->discrete.contact[joint].closed && F > run->contacts.ongoing[joint].F_peak) {
+        run->contacts.ongoing[joint].F_peak = F;
+        run->contacts.ongoing[joint].t_peak = t;
     }
 }
 
@@ -144,8 +145,8 @@ static int open_contact(Integrator *run, int joint, double t)
 {
     run->discrete.contact[joint].closed = 0;
     reset_internal_states(run, joint);
-    run->contacts.lasting[joint].t_off = t;
-    return append_contact(run, &run->contacts.lasting[joint]);
+    run->contacts.ongoing[joint].t_off = t;
+    return append_contact(run, &run->contacts.ongoing[joint]);
 }
 
 /*
@@ -170,8 +171,8 @@ static inline int set_rigid_contact(Integrator *run, int joint, int is_closed)
         start_contact_record(run, joint, run->t, contact->deltadot_minus);
         return 0;
     }
-    run->contacts.lasting[joint].t_off = run->t;
-    return append_contact(run, &run->contacts.lasting[joint]);
+    run->contacts.ongoing[joint].t_off = run->t;
+    return append_contact(run, &run->contacts.ongoing[joint]);
 }
 
 /*
@@ -209,10 +210,10 @@ int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double
 {
     const Integrator *run = integrator;
     Contacts *contacts = &((Integrator *)integrator)->contacts;
-    for (int i = 0; include_open && !contacts->lasting_listed && i < N_CLEARANCES; i++)
+    for (int i = 0; include_open && !contacts->ongoing_listed && i < N_CLEARANCES; i++)
         if (run->discrete.contact[i].closed)
-            contacts->impacts[contacts->n_impacts++] = contacts->lasting[i];
-    contacts->lasting_listed = include_open;
+            contacts->impacts[contacts->n_impacts++] = contacts->ongoing[i];
+    contacts->ongoing_listed = include_open;
     const int n = contacts->n_impacts < capacity ? contacts->n_impacts : capacity;
     for (int i = 0; i < n; i++, values += N_IMPACT_COLUMNS) {
         const Impact *impact = &contacts->impacts[i];

@@ -34,7 +34,7 @@ static void extend_path_envelope(Integrator *run, int joint, double t, const Cle
 
 /*
  * Initialize the current row of the envelope, which covers no steps yet: smallest force infinite, largest -infinite,
- * eccentricity zero.
+ * eccentricity zero at the current time.
  */
 static void begin_envelope_row(Integrator *run)
 {

@@ -2,6 +2,10 @@
  * Stick-slip: friction elements that can stick, their modes, and the changes of these modes at events. A step ends
  * where the slip reaches zero or the force of stick reaches its limit: at the zero of
  * evaluate_friction_event_function() on the step.
+ *
+ * Modes of an element (DiscreteState.mode): 0 sticks, with the force that keeps its slip at zero; 1 or -1 slips in
+ * that direction against its kinetic force; MODE_HELD (2) is at rest without a force, because drives or other friction
+ * elements hold its slip at zero.
  */
 #if N_FRICTIONS
 #define SLIP_ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
@@ -10,13 +14,13 @@ enum { MAX_MODE_PASSES = 8 + 4 * N_FRICTIONS };
 /*
  * Return the event function of a friction element, positive while its mode (stick or slip) lasts. In stick: static
  * limit minus |force| in N. In slip: the slip velocity in its direction plus SLIP_ROUNDING, m/s. Held by other
- * constraints (MODE_HELD): AT_REST minus |slip|, m/s.
+ * constraints (MODE_HELD): MAX_STICK_SPEED minus |slip|, m/s.
  */
 static double evaluate_friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
     const Friction *friction = &rhs->friction[element];
     if (discrete->mode[element] == MODE_HELD)
-        return AT_REST - fabs(friction->v);
+        return MAX_STICK_SPEED - fabs(friction->v);
     if (discrete->mode[element] == 0.0)
         return friction->static_limit - fabs(friction->force);
     return discrete->mode[element] * friction->v + SLIP_ROUNDING;
@@ -38,15 +42,15 @@ static int evaluate_rates_with_friction_modes(Integrator *run, const Parameters 
 }
 
 /*
- * Remove the slip of elements with at most AT_REST (m/s) by impulses of their friction, where modes change. Otherwise
- * rounding would decide the next mode. The discrete state is restored; velocities and the right-hand side change.
- * Return 0 or a status. Called by change_friction_modes() before the modes are iterated.
+ * Remove the slip of elements with at most MAX_STICK_SPEED (m/s) by impulses of their friction, where modes change.
+ * Otherwise rounding would decide the next mode. The discrete state is restored; velocities and the right-hand side
+ * change. Return 0 or a status. Called by change_friction_modes() before the modes are iterated.
  */
 static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 {
     const DiscreteState discrete = run->discrete;
     for (int i = 0; i < N_FRICTIONS; i++)
-        if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
+        if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= MAX_STICK_SPEED)
             run->discrete.mode[i] = 0.0;
     const int status = evaluate_rates_with_friction_modes(run, p);
     if (!status)
@@ -56,9 +60,11 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 }
 
 /*
- * Correct the friction mode with the largest violation and return whether there was one. Violations are a sticking
- * force beyond its limit (relative to it), or a slip from rest against its own rate (1). If an element would start to
- * slip while another is held, the held one slips instead, so that its force acts first. Called in each pass of
+ * Correct the friction mode with the largest violation (modes: DiscreteState in scene/types.h) and return whether there
+ * was one. Violations are a sticking force beyond its limit (relative to it), or a slip from rest against its own rate
+ * (1). A sticking element then slips against its force; a slipping one sticks; a held one (MODE_HELD: at rest, without
+ * force) slips in the direction of its rate. If an element would start to slip while another is held without violation,
+ * the held one gets that slip direction instead, so that its force acts first. Called in each pass of
  * iterate_friction_modes() after the right-hand side.
  */
 static int correct_worst_friction_mode(Integrator *run)
@@ -72,7 +78,7 @@ static int correct_worst_friction_mode(Integrator *run)
         if (mode_now == 0.0) {
             violation = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
             mode_next = friction->force > 0.0 ? -1.0 : 1.0;
-        } else if (fabs(friction->v) <= AT_REST && fabs(friction->rate) > AT_REST) {
+        } else if (fabs(friction->v) <= MAX_STICK_SPEED && fabs(friction->rate) > MAX_STICK_SPEED) {
             violation = mode_now == MODE_HELD || mode_now * friction->rate < 0.0 ? 1.0 : 0.0;
             mode_next = mode_now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
@@ -97,7 +103,7 @@ static int correct_worst_friction_mode(Integrator *run)
 static int iterate_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
-        if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
+        if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= MAX_STICK_SPEED)
             run->discrete.mode[i] = 0.0;
     for (int i = 0; i < MAX_MODE_PASSES; i++) {
         const int status = evaluate_rates_with_friction_modes(run, p);
@@ -130,8 +136,9 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /*
- * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick if |slip| <= AT_REST. If
- * any was set, iterate all modes to a consistent set. Return 0 or a status. Called once, when a run begins.
+ * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick if |slip| <=
+ * MAX_STICK_SPEED. If any was set, iterate all modes to a consistent set. Return 0 or a status. Called once, when a run
+ * begins.
  */
 static int initialize_friction_modes(Integrator *run, const Parameters *p)
 {
@@ -141,7 +148,7 @@ static int initialize_friction_modes(Integrator *run, const Parameters *p)
         if (!isnan(run->discrete.mode[i]))
             continue;
         has_unknown = 1;
-        run->discrete.mode[i] = fabs(v) <= AT_REST ? 0.0 : v > 0.0 ? 1.0 : -1.0;
+        run->discrete.mode[i] = fabs(v) <= MAX_STICK_SPEED ? 0.0 : v > 0.0 ? 1.0 : -1.0;
     }
     return has_unknown ? iterate_friction_modes(run, p) : 0;
 }
@@ -155,15 +162,16 @@ static int update_friction_modes(Integrator *run, const Parameters *p) { return 
 
 /*
  * Evaluate the right-hand side after an impact with the current modes of friction elements, then set the modes by its
- * slips: an element with a slip above AT_REST slips in its direction, others keep their mode. run->dy and run->rhs are
- * not evaluated again with the new modes. Return 0, or the status of the evaluation; the modes are then unchanged.
+ * slips: an element with a slip above MAX_STICK_SPEED slips in its direction, others keep their mode. run->dy and
+ * run->rhs are not evaluated again with the new modes. Return 0, or the status of the evaluation; the modes are then
+ * unchanged.
  */
 static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     const int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && !status; i++) {
         const double v = run->rhs.friction[i].v;
-        if (fabs(v) > AT_REST)
+        if (fabs(v) > MAX_STICK_SPEED)
             run->discrete.mode[i] = v > 0.0 ? 1.0 : -1.0;
     }
     return status;

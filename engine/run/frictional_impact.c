@@ -262,8 +262,9 @@ static int compute_friction_impulses(
 }
 
 /*
- * Add the velocity changes of the tangential impulses to the state y, and return the energy in J that they dissipate.
- * impulse: normal impulses, N s, including those that friction causes. Called by apply_impulses() at each impact.
+ * Add the velocity changes of the tangential impulses to the state y, and return the energy in J that they dissipate:
+ * -P . v_before, plus the work of the normal impulses at the changed gap rates, less half of P . G_t P. impulse: normal
+ * impulses, N s, including those that friction causes. Called by apply_impulses() at each impact.
  */
 static double apply_friction_impulses(const FrictionImpulses *friction, const double *impulse, double *y)
 {

@@ -46,7 +46,7 @@ static double compute_flight_step_limit(const Integrator *run, const Step *step,
         if (is_compliant(i) || run->discrete.contact[i].closed)
             continue;
         if (step)
-            rate = max_of(rate, max_of(fabs(step->rate[i][0]), fabs(step->rate[i][1])));
+            rate = max_of(rate, max_of(fabs(step->gap_rate_range[i][0]), fabs(step->gap_rate_range[i][1])));
         limit = min_of(limit, 0.5 * radial_clearance(p, i) / rate);
     }
     return limit;
@@ -89,11 +89,12 @@ static void apply_impulses(Integrator *run, const Delassus *impact, const double
 /*
  * Resolve one joint impact of all rigid contacts that touch: those that approach, and those that rest. Rebounds slower
  * than the threshold v_0 are set to zero. Friction acts only between these surfaces (run/frictional_impact.c).
- * is_limit: resolve the limit of a sequence of impacts, in which every touching joint has restitution 0.
+ * use_joint_impact: resolve the limit of a sequence of impacts, in which every touching joint has restitution 0.
  * n_impacts_before: number of previous impacts at this time. *energy: sum of impulse times approach speed in J, 0 if no
  * joint approaches. Return a status.
  */
-static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_before, int is_limit, double *energy)
+static int resolve_impact(
+    Integrator *run, const Parameters *p, int n_impacts_before, int use_joint_impact, double *energy)
 {
     Delassus impact = {0};
     FrictionImpulses friction;
@@ -106,9 +107,9 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
         const double u = run->rhs.clearance[i].deltadot;
         const int approaches = is_rigid_joint_touching(run, i, p) && u > compute_resting_speed_limit(min_rate, p, i);
         if (!approaches && !(is_rigid_joint_touching(run, i, p)
-            && (is_limit || u >= -compute_resting_speed_limit(min_rate, p, i))))
+            && (use_joint_impact || u >= -compute_resting_speed_limit(min_rate, p, i))))
             continue;
-        const double rebound_speed = is_limit ? 0.0 : restitution_of(p, i) * u;
+        const double rebound_speed = use_joint_impact ? 0.0 : restitution_of(p, i) * u;
         approach_speed[impact.n] = u;
         rebound_sum[impact.n] = approaches && rebound_speed > compute_closing_speed_limit(run, p, i, gap)
             ? u + rebound_speed
@@ -221,16 +222,16 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
     double energies[5] = {0.0}; /* impulse times approach speed of the last passes, J */
-    int is_limit = 0, status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    int use_joint_impact = 0, status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int pass = 0; pass < 2 * MAX_IMPACT_PASSES && !status; pass++) {
         memmove(energies, energies + 1, sizeof energies - sizeof *energies);
-        status = resolve_impact(run, p, pass, is_limit, &energies[4]);
+        status = resolve_impact(run, p, pass, use_joint_impact, &energies[4]);
         if (status || !(energies[4] > 0.0))
             return status;
         status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         const double ratio_before = energies[2] / energies[0],
             ratio = energies[4] / energies[2]; /* of two passes: contacts alternate */
-        is_limit |= pass >= MAX_IMPACT_PASSES
+        use_joint_impact |= pass >= MAX_IMPACT_PASSES
             || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
     }
     return status ? status : CHATTERING;

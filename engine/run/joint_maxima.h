@@ -46,9 +46,9 @@ static inline void update_joint_peaks(Integrator *run, int joint)
     run->contacts.t_peak[joint] = select_value(higher, run->t, run->contacts.t_peak[joint]);
     if (!closed)
         return;
-    const int highest = closed & (F > run->contacts.lasting[joint].F_peak);
-    run->contacts.lasting[joint].F_peak = select_value(highest, F, run->contacts.lasting[joint].F_peak);
-    run->contacts.lasting[joint].t_peak = select_value(highest, run->t, run->contacts.lasting[joint].t_peak);
+    const int highest = closed & (F > run->contacts.ongoing[joint].F_peak);
+    run->contacts.ongoing[joint].F_peak = select_value(highest, F, run->contacts.ongoing[joint].F_peak);
+    run->contacts.ongoing[joint].t_peak = select_value(highest, run->t, run->contacts.ongoing[joint].t_peak);
     if (!is_compliant(joint))
         return; /* rigid contacts have no rate */
     const double ratio = clearance->deltadot / run->discrete.contact[joint].deltadot_minus;

@@ -75,7 +75,7 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
  * if a force rose before the step and falls at its end, or a stage exceeds both ends. The dense output must have been
  * computed.
  */
-static void record_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
+static void record_peak_within_step(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
     double force_end,
     const Parameters *p)
 {
@@ -136,7 +136,7 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
 /*
  * Find and record the largest force of a rigid contact inside a step up to `fraction`. The force may rise and fall
  * while the motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest
- * force.
+ * force by RIGID_FORCE_TOL, at most MAX_BISECTIONS deep and with about MAX_FORCE_SAMPLES evaluations.
  *
  * force_begin, force_end: forces at both ends, N; the first is always recorded. The search is omitted if the stages
  * show a monotone force, or without dense output.
@@ -155,7 +155,7 @@ static void record_rigid_peak(
             {fraction, force_end, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart now = part[n - 1];
-        const double largest_known = max_of(run->contacts.lasting[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
+        const double largest_known = max_of(run->contacts.ongoing[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
         const double width = now.end.s - from.s;
         const double slope = 0.5 * (now.end.f - from.f), curvature = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = curvature < 0.0 && fabs(slope) < -curvature ? now.middle.f - 0.5 * slope * slope / curvature
@@ -277,10 +277,12 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 
 /*
  * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
- * through both ends and the first stage after `fraction` decides; its curvature is multiplied by ERROR_SAFETY. Return 1
- * if there is no such stage.
+ * through both ends and the first stage after `fraction` decides; its curvature is multiplied by ERROR_SAFETY. Return 0
+ * if the maximum would exceed the larger end value by less than MAXIMUM_RATIO - 1 of it. Return 1 if there is no such
+ * stage.
  */
-static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
+static int may_have_maximum_within_step(
+    const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     double node = INFINITY, force = NAN;
@@ -296,9 +298,9 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
 
 /*
  * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages; 0 without stages
- * inside. If a compliant contact continues, fewer than MIN_INNER_STAGES are inside and may_have_inner_maximum() is
- * true, the force in the middle is evaluated on the dense output and recorded as well. force_begin, force_end: forces
- * at both ends, N.
+ * inside. If a compliant contact continues, fewer than MIN_INNER_STAGES are inside and may_have_maximum_within_step()
+ * is true, the force in the middle is evaluated on the dense output and recorded as well. force_begin, force_end:
+ * forces at both ends, N.
  */
 static double find_largest_force_within_step(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
@@ -312,7 +314,7 @@ static double find_largest_force_within_step(
             n_inner++;
         }
     if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && is_compliant(joint)
-        && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
+        && may_have_maximum_within_step(step, fraction, joint, force_begin, force_end)
             && compute_dense_output(run, p, step) == 0)
         return max_of(sqrt(largest_square), evaluate_and_record_joint_force(run, step, 0.5 * fraction, joint, p));
     return sqrt(largest_square);
@@ -330,7 +332,7 @@ static int has_tension_at_end(double force_before, double force_after) { return 
  * falls. Store which forces rise at the end. Without trends, because an evaluation fails, the search of forces is
  * omitted. Called after each accepted step.
  */
-static void record_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
+static void record_peaks_within_step(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force too small to be a peak */
     double force_begin[AT_LEAST_ONE(N_CLEARANCES)], force_end[AT_LEAST_ONE(N_CLEARANCES)];
@@ -338,7 +340,7 @@ static void record_inner_peaks(Integrator *run, Step *step, double fraction, con
     for (int i = 0; i < N_CLEARANCES; i++) {
         record_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
-        const double largest_known = run->discrete.contact[i].closed ? run->contacts.lasting[i].F_peak
+        const double largest_known = run->discrete.contact[i].closed ? run->contacts.ongoing[i].F_peak
             : run->contacts.F_peak[i];
         force_begin[i] = compute_force_magnitude(a), force_end[i] = compute_force_magnitude(b);
         /* a contact's force may double in a step, a film's grows by some percent */
@@ -367,7 +369,7 @@ static void record_inner_peaks(Integrator *run, Step *step, double fraction, con
         const int has_event_candidate = trends[i] != LOW, falls = has_event_candidate && trends[i] < 0;
         if (has_event_candidate && (((falls || reverses) && run->contacts.is_rising[i]) || has_inner_peak[i])
             && compute_dense_output(run, p, step) == 0)
-            record_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+            record_peak_within_step(run, step, fraction, i, force_begin[i], force_end[i], p);
         set_force_rising(run, i, !falls);
     }
 }

@@ -35,7 +35,7 @@ static void report_progress(const Integrator *run, double *time_advance, long *s
 }
 
 /* Return whether Python must fetch the lists of contacts and events, or the step record, before the run resumes. */
-int gudgeon_run_has_full_lists(const void *integrator) { return has_full_lists(integrator); }
+int gudgeon_run_has_full_buffers(const void *integrator) { return has_full_buffers(integrator); }
 
 /*
  * Return the number of contacts and user-defined events that wait in the lists until Python fetches them, plus that of

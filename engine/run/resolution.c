@@ -44,7 +44,7 @@ static double compute_gap_tolerance(const Integrator *run, const Parameters *p)
  */
 static double compute_closing_speed_limit(const Integrator *run, const Parameters *p, int joint, double min_gap)
 {
-    const double acceleration = max_of(compute_outward_acceleration(&run->rhs.clearance[joint]), 0.0),
+    const double acceleration = max_of(compute_penetration_acceleration(&run->rhs.clearance[joint]), 0.0),
         e = restitution_of(p, joint);
     const double time_error = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->roots.time_resolution);
     const double factor = 4.0 / max_of(MIN_ENERGY_LOSS, 1.0 - e * e);

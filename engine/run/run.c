@@ -179,7 +179,7 @@ static double compute_kinetic_energy(const Integrator *run, const Parameters *p)
 #include "impacts.c"
 
 /* Return whether Python must fetch the lists of contacts and events, or the step record, before the next step. */
-static int has_full_lists(const Integrator *run)
+static int has_full_buffers(const Integrator *run)
 {
     return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
 }
@@ -271,7 +271,7 @@ static int initialize_discrete_state(Integrator *run, const Parameters *p)
     if (!status)
         status = initialize_rigid_contacts(run, p);
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
-    evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
+    evaluate_significant_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         detect_event_crossing(i, &run->discrete.event_sign[i], value[i]);
         if (isnan(run->rhs.event[i]) && !status)
@@ -305,9 +305,9 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     *run = (Integrator){.t = t};
     convert_from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
     read_discrete_state(discrete, &run->discrete);
-    run->discrete.token = &run->cancellation;
+    run->discrete.cancellation = &run->cancellation;
     if (HAS_CONTINUATION)
-        run->discrete.least = run->discrete.least_size = NEAR_SINGULAR_PIVOT;
+        run->discrete.min_pivot = run->discrete.min_pivot_size = NEAR_SINGULAR_PIVOT;
     for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no internal states yet */
         run->y[FIRST_STATE + k] = isnan(discrete[N_DISCRETE - N_STATES + k]) ? 0.0
             : discrete[N_DISCRETE - N_STATES + k];

@@ -57,15 +57,18 @@ enum {
 #endif
     N_STAGES = 16,
     N_SAMPLES = 16,
-    /* methods available in lanes; from BY_RODAS5P on they use the Jacobian, from BY_RADAU5 on they iterate stages */
-    BY_DOP853 = 0,
-    BY_RK4,
-    BY_DOPRI5,
-    BY_TAYLOR, /* in a library of lanes of its own */
-    BY_RODAS5P,
-    BY_RADAU5,
-    BY_RADAU9,
-    LANE_KINDS,
+    /*
+     * methods available in lanes; from METHOD_RODAS5P on they use the Jacobian, from METHOD_RADAU5 on they iterate
+     * stages
+     */
+    METHOD_DOP853 = 0,
+    METHOD_RK4,
+    METHOD_DOPRI5,
+    METHOD_TAYLOR, /* in a library of lanes of its own */
+    METHOD_RODAS5P,
+    METHOD_RADAU5,
+    METHOD_RADAU9,
+    N_LANE_METHODS,
     FAILED = -1, /* the dense output could not be computed */
     IN_RUN = 1,
     IN_LANE = 2 /* where a linearization, series or dense output is stored: in the run, in a lane; 0: nowhere */
@@ -103,17 +106,17 @@ typedef struct {
     /* stages so far; their nodes, stored values (N_STAGE_VALUES), smallest event functions */
     int n_stored_stages;
     double node[N_STAGES], stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)];
-    double lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    double min_event_value[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     /* watched event functions at equidistant points of the step (watch/dense_samples.c) */
     double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1];
-    unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
+    unsigned char is_ignored[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
     double branch_error; /* largest effect of wrong branches on the step, in tolerances; infinite: not known */
     /* bracket of a zero of each watched function: its ends, and the values there */
-    double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)];
-    double above[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
+    double bracket_begin[AT_LEAST_ONE(N_WATCHED)], bracket_end[AT_LEAST_ONE(N_WATCHED)];
+    double value_at_begin[AT_LEAST_ONE(N_WATCHED)], value_at_end[AT_LEAST_ONE(N_WATCHED)];
     double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if watched */
-    unsigned char near[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
-    double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
+    unsigned char may_be_zero[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
+    double gap_rate_range[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
     double term_range[AT_LEAST_ONE(N_TERMS)];     /* range of terms of time alone over the step; -1: unknown */
     int may_force_oscillate;                      /* whether a force may oscillate between stages (watch/forces.c) */
 } Step;
@@ -129,7 +132,7 @@ typedef struct {
     int n, has_gaps_only[N_DENSE_SAMPLES];
     double fraction[N_DENSE_SAMPLES], event_function[N_DENSE_SAMPLES][AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     double slope[N_DENSE_SAMPLES][AT_LEAST_ONE(N_CLEARANCES)]; /* of joints, by the fraction */
-    double beyond, y[N_Y], dy[N_Y];
+    double negative_fraction, y[N_Y], dy[N_Y];
     RhsOutputs rhs;
 } DenseSamples;
 
@@ -138,7 +141,7 @@ typedef struct {
     double h, first_h, time_left;    /* s: length tried now; of the first attempt; time left to the end of the run */
     double time_magnitude, rejected_h; /* s: magnitude of the times; length of the last rejected attempt */
     double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
-    int open, lane, was_rejected;    /* whether attempts continue; method in lanes; whether an attempt was rejected */
+    int is_open, lane_method, was_rejected; /* whether attempts continue; method in lanes; whether one was rejected */
     int n_shortened, n_drift_rejections, methods_failed; /* attempts unresolved, or off the constraints; both failed */
 } Attempt;
 
@@ -167,12 +170,12 @@ typedef struct {
  * Written by: run/contacts.c, run/joint_maxima.h. Copied by: batch/lane_controlled_steps.c.
  */
 typedef struct {
-    Impact lasting[AT_LEAST_ONE(N_CLEARANCES)];    /* contact that lasts in each joint: closed, not yet listed */
+    Impact ongoing[AT_LEAST_ONE(N_CLEARANCES)];    /* contact that lasts in each joint: closed, not yet listed */
     int is_compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
     int is_rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
     Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
-    int n_impacts, lasting_listed;
+    int n_impacts, ongoing_listed;
     long onsets;
     double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
 } Contacts;
@@ -183,7 +186,7 @@ typedef struct {
     int number[LISTED_EVENTS], n;
     int stop; /* whether events may end the run */
     int pole; /* whether the event that ends a step is a pole instead of a zero (watch/events.c) */
-    unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether an event function was reported as NaN */
+    unsigned char is_nan_reported[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether an event function was reported as NaN */
 } EventList;
 
 /* The envelope of forces and paths; rows NULL: none is recorded. Written by: run/envelope.c. */
@@ -204,7 +207,7 @@ typedef struct {
 
 /* Counts of steps near singular positions: not tested, tested in vain. Written by: methods/singular_policy.c. */
 typedef struct {
-    long n_undetected, n_failed;
+    long n_steps_without_detection, n_failed;
 } NearSingular;
 
 /* Counts of a run for its report. Written by: run/step_log.h. Copied by: batch/. */
@@ -237,11 +240,11 @@ typedef struct {
     double h_rho; /* h rho of the last tried step: its length times the largest rate of the motion */
     double rho; /* largest rate of the motion, 1/s, where `auto` returned to the explicit method */
     double mean_length[2]; /* s: of recent steps of the explicit and of the stiff method; 0: none */
-    double contrary_length; /* s: of the first of the successive steps against the method */
+    double opposing_length; /* s: of the first of the successive steps against the method */
     int automatic; /* whether the run may change between both methods */
-    int n_contrary_steps, steps_since_change; /* successive steps against the method; steps since the last change */
+    int n_opposing_steps, steps_since_change; /* successive steps against the method; steps since the last change */
     int n_unstable_steps; /* rejected unstable steps since the last change of a contact or of the method */
-    int return_steps, max_contrary_steps; /* steps against the stiff, and the explicit method until the change */
+    int return_steps, max_opposing_steps; /* steps against the stiff, and the explicit method until the change */
 } MethodChoice;
 
 /*
@@ -251,16 +254,18 @@ typedef struct {
  */
 typedef struct {
     Attempt attempt;
-    double fixed, accept; /* length of fixed steps, s, 0: step-size control; largest error norm of an accepted step */
-    double grid, on_grid; /* start of the grid of fixed steps, s; number of grid points passed */
+    double fixed; /* length of fixed steps, s, 0: step-size control */
+    double max_accepted_error; /* largest error norm of an accepted step */
+    double fixed_steps_origin, n_grid_steps; /* start of the grid of fixed steps, s; number of grid points passed */
     double last_step; /* length of the last step up to an event, s */
     double h, h_stiff, error_before, observed_order;
-    double too_long, too_long_until; /* s: last length rejected for its error; the time at its end */
+    double rejected_length, rejected_end; /* s: last length rejected for its error; the time at its end */
     /*
      * First step lengths after a contact begins or ends (by the number of closed contacts), and after a switching point
      * by branch; the length that the next step updates; order of the error of such a step (0: that of the method).
      */
-    double after_contact[N_CLEARANCES + 1][2], after_switch[AT_LEAST_ONE(N_SWITCHES)][2], *first, first_step_order;
+    double after_contact[N_CLEARANCES + 1][2], after_switch[AT_LEAST_ONE(N_SWITCHES)][2];
+    double *stored_first_length, first_step_order;
     /* error of straight motion in a fitting first step, tolerances, explicit and stiff; that error per s, now */
     double onset[2], onset_error_per_s;
 } StepControl;
@@ -287,9 +292,9 @@ typedef struct {
     int ready; /* where the linearization at the run's state is stored: IN_RUN, IN_LANE, 0 */
 #if IMPLICIT_STAGES
     /* beginnings of this step and the step before, their distance (s); rate of convergence of the last iterations */
-    StepStart now;
-    long seen_steps;
-    double before_t, before_y[N_Y], before_dy[N_Y], last_h, convergence_rate, film_force_tol;
+    StepStart current_start;
+    long n_recorded_steps;
+    double previous_t, previous_y[N_Y], previous_dy[N_Y], last_h, convergence_rate, film_force_tol;
     int can_extrapolate;
 #endif
 } NewtonIteration;
@@ -301,7 +306,7 @@ typedef struct {
 typedef struct {
     double time_resolution; /* s: resolution of the times of events; smaller in a short run */
     int crossed, suppressed_switch; /* last crossed switching function; not watched in the next step; -1: none */
-    double t_crossed, monitor; /* s: time of that crossing; step length after which it is watched again */
+    double t_crossed, suppression_length; /* s: time of that crossing; step length after which it is watched again */
     DenseSamples samples;
 } RootFinding;
 
@@ -317,7 +322,7 @@ typedef struct {
     const double *lane; /* IN_LANE: its terms, with a stride of `lanes` numbers */
     int lanes;
     /* longest step of the series, s; rounding errors of the sums y, at the beginning and at the end of a step */
-    double max_step, lost[N_Y], next_lost[N_Y];
+    double max_step, rounding_errors[N_Y], end_rounding_errors[N_Y];
     double growth; /* 1/s: order times ratio of the last two terms; the largest rate of stiff motion */
     double terms[TAYLOR_ORDERS + 1][TAYLOR_Y];
 } Series;
@@ -336,7 +341,7 @@ typedef struct {
     EventList events;
     Envelope envelope;
     FilmErrors films;
-    NearSingular near;
+    NearSingular near_singular;
     Counts counts;
     Residuals residuals;
     Progress progress;

@@ -53,7 +53,8 @@ static void estimate_state_errors(Integrator *run, double t, const double *y, co
 /*
  * Add the residual slip of sticking friction to the velocity errors in `error` (2 N_X): the velocity change by which an
  * impulse of that friction would stop the slip, with other sticking elements at rest. With a sticking element,
- * coordinate errors are raised to the rounding of the smallest relevant length. Called by estimate_uncertainty().
+ * coordinate errors are raised to the rounding of the smallest relevant length. Called by
+ * estimate_rounding_uncertainty().
  */
 static void add_residual_slips(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -94,7 +95,7 @@ static inline double get_watched_value(const RhsOutputs *rhs, int index)
  * Estimate how much errors of the state (2 N_X) change each watched function, by interval arithmetic: uncertainty
  * (N_WATCHED), 0 if the bounds contain a pole.
  */
-static void estimate_watched_errors(
+static void estimate_watched_function_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
     estimate_error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, uncertainty);
@@ -103,9 +104,10 @@ static void estimate_watched_errors(
 /*
  * Estimate how much errors of the state (2 N_X) change each watched function, because no interval bounds are known.
  * uncertainty (N_WATCHED): the sum of finite differences for four patterns of error signs; 0 if the evaluation at y
- * fails. A pattern whose evaluation fails is omitted.
+ * fails. The differences are taken for errors divided by OBSERVED_FACTOR and multiplied by it again. A pattern whose
+ * evaluation fails, or whose change is not finite, is omitted.
  */
-static void estimate_watched_errors(
+static void estimate_watched_function_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
     double y_perturbed[N_Y], dy[N_Y];
@@ -133,12 +135,13 @@ static void estimate_watched_errors(
  * function: uncertainty (N_WATCHED). A value below its uncertainty has no sign. Called when a value near zero must be
  * distinguished from rounding.
  */
-static void estimate_uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *uncertainty)
+static void estimate_rounding_uncertainty(
+    Integrator *run, double t, const double *y, const Parameters *p, double *uncertainty)
 {
     double error[2 * N_X + 1];
     estimate_state_errors(run, t, y, p, error);
     add_residual_slips(run, t, y, p, error);
-    estimate_watched_errors(run, t, y, error, p, uncertainty);
+    estimate_watched_function_errors(run, t, y, error, p, uncertainty);
 }
 
 /*
@@ -146,7 +149,7 @@ static void estimate_uncertainty(Integrator *run, double t, const double *y, con
  * uncertainty. The uncertainty is estimated only if a sign differs from the stored one (event_sign); otherwise values
  * are those of `rhs`, the outputs at y.
  */
-static void evaluate_resolved_events(
+static void evaluate_significant_events(
     Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)
 {
     double error[AT_LEAST_ONE(N_WATCHED)];
@@ -157,7 +160,7 @@ static void evaluate_resolved_events(
     }
     if (!has_new_sign)
         return;
-    estimate_uncertainty(run, t, y, p, error);
+    estimate_rounding_uncertainty(run, t, y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if (fabs(values[i]) <= error[N_WATCHED - N_USER_EVENTS + i])
             values[i] = 0.0;
@@ -165,14 +168,14 @@ static void evaluate_resolved_events(
 
 #else
 /* Do nothing: the scene has no watched functions, so no user-defined events. */
-static inline void evaluate_resolved_events(
+static inline void evaluate_significant_events(
     const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)
 {
     (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)values;
 }
 
 /* Do nothing: the scene has no watched functions. */
-static inline void estimate_uncertainty(const Integrator *run, double t, const double *y, const Parameters *p,
+static inline void estimate_rounding_uncertainty(const Integrator *run, double t, const double *y, const Parameters *p,
     double *uncertainty)
 {
     (void)run, (void)t, (void)y, (void)p, (void)uncertainty;

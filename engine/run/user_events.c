@@ -56,9 +56,9 @@ static int reverse_event_sign(Integrator *run, int event)
  */
 static void record_nan_event(Integrator *run, int event, double t)
 {
-    if (!run->events.no_number[event])
+    if (!run->events.is_nan_reported[event])
         append_user_event(run, event + N_USER_EVENTS, t);
-    run->events.no_number[event] = 1;
+    run->events.is_nan_reported[event] = 1;
 }
 
 /*
@@ -74,7 +74,7 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
         has_zero |= run->discrete.event_sign[i] == 0;
     if (!has_zero)
         return;
-    evaluate_resolved_events(run, t, y, rhs, p, value);
+    evaluate_significant_events(run, t, y, rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if (run->discrete.event_sign[i] == 0)
             detect_event_crossing(i, &run->discrete.event_sign[i], value[i]);
@@ -82,14 +82,16 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
 
 /*
  * Record user-defined events that a sudden change of the state led across zero, and return ENDED if one of them ends
- * the run, else 0. values_before (N_USER_EVENTS): values before the change, of which the same sign as now excludes an
- * event; NULL: any sign. Called after impacts, impulses of drives and changes of branches or modes.
+ * the run, else 0. An event is crossed if its value has left the stored sign event_sign in the event's direction
+ * (detect_event_crossing()); event_sign is updated. values_before (N_USER_EVENTS): values before the change, of which
+ * the same sign as now excludes an event; NULL: any sign. Called after impacts, impulses of drives and changes of
+ * branches or modes.
  */
 static int record_crossed_events(Integrator *run, const double *values_before, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int status = 0;
-    evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
+    evaluate_significant_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if ((!values_before || !have_same_sign(values_before[i], value[i]))
             && detect_event_crossing(i, &run->discrete.event_sign[i], value[i])
@@ -115,7 +117,7 @@ static int extrapolate_event_functions(Integrator *run, double t, double duratio
     for (int i = 0; i < N_USER_EVENTS; i++)
         values[i] = 0.0;
     if (!status)
-        evaluate_resolved_events(run, t + duration, y_after, &rhs, p, values);
+        evaluate_significant_events(run, t + duration, y_after, &rhs, p, values);
     return status;
 }
 
@@ -168,7 +170,7 @@ static int compute_event_signs_just_after(Integrator *run, double fixed_step, co
     const int status = evaluate_rates_just_after(run, h, p, &rhs_after);
     if (status)
         return status;
-    estimate_uncertainty(run, run->t, run->y, p, error);
+    estimate_rounding_uncertainty(run, run->t, run->y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double value_after = rhs_after.event[i];
         signs[i] = (signed char)(fabs(value_after) > error[N_WATCHED - N_USER_EVENTS + i]
@@ -274,9 +276,10 @@ static int has_new_constraint(const DiscreteState *discrete_before, const Discre
 }
 
 /*
- * Record event functions that reach zero and are held there after an event, unless they were at zero before. A function
- * that was held and moves again gets its sign without an event. Whether it is held follows from its value `duration`
- * seconds later, with and without the change. Nothing is done if nothing new is held and no function is at zero. Return
+ * Record event functions that reach zero and are held there by a contact or friction since an event, unless they were
+ * at zero before; their sign becomes 0. A function with sign 0 that moves again gets its sign without an event. Whether
+ * it moves follows from its value `duration` seconds later, compared with that without the event. An arrival is
+ * recorded only in the direction that the event counts. Nothing is done if nothing new is held and no sign is 0. Return
  * ENDED if a recorded event ends the run, else 0. Called by apply_event() after all changes.
  */
 static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
@@ -290,23 +293,25 @@ static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *stat
     if (!is_held && !has_zero)
         return 0;
     DiscreteState discrete = run->discrete;
-    estimate_uncertainty(run, run->t, state_before->y, p, error); /* before: slips that were just stopped count */
+    /* of the state before: slips that were just stopped count */
+    estimate_rounding_uncertainty(run, run->t, state_before->y, p, error);
     (void)extrapolate_event_functions(run, run->t, duration, run->y, run->dy, p, value_after);
     run->discrete = state_before->discrete;
     (void)extrapolate_event_functions(run, run->t, duration, state_before->y, state_before->dy, p, value_without);
     run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        signed char *branch = &run->discrete.event_sign[i];
+        signed char *event_sign = &run->discrete.event_sign[i];
         const double uncertain = error[N_WATCHED - N_USER_EVENTS + i];
-        const int sign_before = *branch, is_moving = fabs(value_after[i]) > uncertain + 0.01 * fabs(value_without[i]);
+        const int sign_before = *event_sign,
+                  is_moving = fabs(value_after[i]) > uncertain + 0.01 * fabs(value_without[i]);
         if (sign_before == 0 && is_moving)
-            detect_event_crossing(i, branch, value_after[i]);
+            detect_event_crossing(i, event_sign, value_after[i]);
         if (sign_before == 0 || is_moving || !is_held || !(fabs(run->rhs.event[i]) <= uncertain))
             continue;
         const int arrives = sign_before * state_before->event[i] > uncertain
             || sign_before * value_without[i] < -uncertain;
         if (arrives || sign_before * value_without[i] > uncertain)
-            *branch = 0;
+            *event_sign = 0;
         if (arrives && event_direction[i] * sign_before <= 0 && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     }

@@ -30,8 +30,9 @@ static inline void store_stiffness_estimate(IntegratorOf *run, Real h_rho) { run
 
 /*
  * Estimate and store h rho, the stiffness of an explicit step, from two states at its end: that of the step, and that
- * of the last stage, stage_y with rates stage_rates. h rho is h times the ratio of the norms of the differences of
- * rates and states. It is 0 where the two states do not differ.
+ * of the last stage, stage_y with rates stage_rates. h rho is h times the ratio of the differences of rates and of
+ * states. Both are measured in the weighted maximum norm of the components on which the motion depends. It is 0 where
+ * the two states do not differ.
  */
 static inline void estimate_stiffness_at_end(IntegratorOf *run, const StepOf *step, Real h, const Real *stage_y,
     const Real *stage_rates)

@@ -10,8 +10,8 @@ static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
     const Real H = run->newton.last_h;
     for (int i = 0; i < N_Y; i++) {
         /* Hermite's cubic, beyond the end of the step before, which was H long */
-        const Real distance = run->newton.before_y[i] - run->y[i];
-        const Real d0 = H * run->newton.before_dy[i], d1 = H * run->dy[i];
+        const Real distance = run->newton.previous_y[i] - run->y[i];
+        const Real d0 = H * run->newton.previous_dy[i], d1 = H * run->dy[i];
         const Real c2 = 3.0 * distance + d0 + 2.0 * d1, c3 = 2.0 * distance + d0 + d1;
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
@@ -145,11 +145,12 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
     for (int i = 0; i < N_Y; i++)
         rounding = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounding);
     rounding *= RADAU_ROUNDING;
-    const Real tolerance = select_value(run->control.accept <= DBL_MAX, make_real(RADAU_STAGE_TOL), rounding);
+    const Real tolerance =
+        select_value(run->control.max_accepted_error <= DBL_MAX, make_real(RADAU_STAGE_TOL), rounding);
     const Real max_error = real_max(tolerance, rounding);
     Mask is_active = invert_mask((Mask){0});
     *has_failed = (Mask){0};
-    const int controlled = any_of(run->control.accept <= DBL_MAX);
+    const int controlled = any_of(run->control.max_accepted_error <= DBL_MAX);
     const int max_passes = controlled ? RADAU_MAX_ITERATIONS : RADAU_MAX_FIXED_ITERATIONS;
     const double max_ratio = controlled ? 0.9 : 2.0; /* a fixed step may begin with a bad guess */
     for (int pass = 0; pass < max_passes && any_of(is_active); pass++) {
@@ -221,7 +222,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     int status = RADAU(factor_matrices)(run, h, complex_matrices, p);
     if (status)
         return status;
-    load_iteration_history(run);
+    load_stage_predictor(run);
     RADAU(guess_stages)(run, h, step->k);
     status = RADAU(solve_stages)(run, h, complex_matrices, p, step, &has_failed);
     if (!status)
@@ -242,7 +243,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         distance = real_max(real_abs(u[i]) * run->norm.weight[i], distance);
     }
     store_stiffness_estimate(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
-    const Mask large = step->error > run->control.accept;
+    const Mask large = step->error > run->control.max_accepted_error;
     if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];
         RhsOutputsOf rhs;

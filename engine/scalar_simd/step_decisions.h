@@ -14,7 +14,7 @@
 #define ORDER_DECAY 0.95        /* factor on the observed order of error growth after each step */
 #define LENGTH_MEMORY 0.8       /* weight of the mean length of the steps before the last one */
 #define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
-#define BEND_SAFETY 2.0    /* factor on the largest second derivative of a gap that neighbouring stages show */
+#define CURVATURE_SAFETY 2.0    /* factor on the largest second derivative of a gap that neighbouring stages show */
 #define QUARTER_STAGE_DISTANCE 0.125       /* w/4 for neighbouring stages at most w of a step apart */
 #define MAX_SMALL_FILM_ERROR 0.02 /* of the limit: below it at the ends, the error inside is measured rarely */
 #define FILM_LENGTH_RATIO 1.5    /* times the last measured step: longer steps are measured */
@@ -26,19 +26,19 @@
 
 /*
  * Return the ratio of the next length to that of an accepted step with this error (tolerances), by the PI controller.
- * For h rho > 1 (stability) it is at most STABLE_GROWTH limiting_h_rho / (h rho), and for observed_order power > 1 at
+ * For h rho > 1 it is at most STABLE_GROWTH limiting_h_rho / (h rho), and for observed_order power > 1 at
  * most SAFETY error^(-1/observed_order). error_before: error of the step before. power, limiting_h_rho: numbers of the
  * method, its exponent of the step-size control and the h rho at which stability limits its steps. Limits of the ratio
  * itself are left to the caller.
  */
-static inline Real compute_length_ratio(Real error, Real error_before, Real stability, Real observed_order, Real power,
+static inline Real compute_length_ratio(Real error, Real error_before, Real h_rho, Real observed_order, Real power,
     Real limiting_h_rho)
 {
     Real ratio = SAFETY * real_exp2(power
         * (LAST_ERROR_EXPONENT * real_log2(error_before) - ERROR_EXPONENT * real_log2(error)));
-    const Mask is_limited = stability > 1.0, is_stiffer = observed_order * power > 1.0;
+    const Mask is_limited = h_rho > 1.0, is_stiffer = observed_order * power > 1.0;
     if (any_of(is_limited))
-        ratio = select_value(is_limited, real_min(ratio, STABLE_GROWTH * limiting_h_rho / stability), ratio);
+        ratio = select_value(is_limited, real_min(ratio, STABLE_GROWTH * limiting_h_rho / h_rho), ratio);
     if (any_of(is_stiffer)) {
         const Real by_order = SAFETY * real_exp2(-1.0 / observed_order * real_log2(error));
         ratio = select_value(is_stiffer, real_min(ratio, by_order), ratio);
@@ -66,7 +66,7 @@ static inline Real compute_flight_length(Real c, Real delta, Real deltadot)
  * measurement, film_error in a step of length film_h (s) n_steps before, and it is at the ends (end_error). Errors are
  * multiples of the limit.
  */
-static inline Mask is_film_measured(Real end_error, Real h, Real film_error, Real film_h, Real n_steps)
+static inline Mask is_last_film_error_valid(Real end_error, Real h, Real film_error, Real film_h, Real n_steps)
 {
     return (film_error < MAX_SMALL_FILM_ERROR) & (end_error < MAX_SMALL_FILM_ERROR)
         & (h < FILM_LENGTH_RATIO * film_h) & (n_steps < MAX_UNMEASURED_FILM_STEPS);
@@ -76,11 +76,11 @@ static inline Mask is_film_measured(Real end_error, Real h, Real film_error, Rea
  * Return a lower bound of the event function of a contact between its samples at beginning, stages and end of a step,
  * from its rates there. begin, end: the event function at both ends, m.
  */
-static inline Real compute_least_gap(const StepOf *step, int joint, Real begin, Real end, Real rate_begin,
+static inline Real compute_gap_lower_bound(const StepOf *step, int joint, Real begin, Real end, Real rate_begin,
     Real rate_end)
 {
-    const Real min_rate = real_min(step->rate[joint][0], real_min(rate_begin, rate_end)),
-        max_rate = real_max(step->rate[joint][1], real_max(rate_begin, rate_end));
-    const Real smallest = real_min(step->lowest[joint], real_min(begin, end));
-    return smallest - QUARTER_STAGE_DISTANCE * step->h * (max_rate - min_rate) * BEND_SAFETY / 2.0;
+    const Real min_rate = real_min(step->gap_rate_range[joint][0], real_min(rate_begin, rate_end)),
+        max_rate = real_max(step->gap_rate_range[joint][1], real_max(rate_begin, rate_end));
+    const Real smallest = real_min(step->min_event_value[joint], real_min(begin, end));
+    return smallest - QUARTER_STAGE_DISTANCE * step->h * (max_rate - min_rate) * CURVATURE_SAFETY / 2.0;
 }

@@ -9,9 +9,9 @@ enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 #define TAYLOR_AHEAD 8.0 /* times the last step: first limit of the next one */
 
 /*
- * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
- * make these terms small or zero; the defect at the end of the step shows that. Also store series.growth, the ratio of
- * these terms times the order; 0 if the term before the last is 0.
+ * Return the longest step in s for which the last two terms of the series do not exceed 1/series.strictness tolerances.
+ * Symmetry may make these terms small or zero; the defect at the end of the step shows that. Also store series.growth,
+ * the ratio of these terms times the order; 0 if the term before the last is 0.
  */
 static Real taylor_compute_max_length(IntegratorOf *run)
 {
@@ -97,7 +97,7 @@ static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *
     Real change[N_Y], rate[N_Y];
     taylor_evaluate_change_and_rate(run, h, change, rate);
     for (int i = 0; i < N_Y; i++)
-        y[i] = run->series.terms[0][i] + (run->series.lost[i] + change[i]);
+        y[i] = run->series.terms[0][i] + (run->series.rounding_errors[i] + change[i]);
 }
 
 /*
@@ -141,7 +141,8 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         taylor_evaluate_change_and_rate(run, h, change, rate);
         for (int i = 0; i < N_Y; i++) {
             step->y[i] = run->series.terms[0][i];
-            run->series.next_lost[i] = add_compensated(&step->y[i], run->series.lost[i] + change[i]);
+            run->series.end_rounding_errors[i] =
+                add_compensated(&step->y[i], run->series.rounding_errors[i] + change[i]);
         }
         step->error = is_adaptive ? h / run->series.max_step : make_real(0.0); /* root of the error: accepted up to 1 */
         if (!is_repeated && decide_step_rejection(run, step))
@@ -157,7 +158,7 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
             round_step_length(run, real_min(run->series.max_step, taylor_compute_max_length_by_all_terms(run)));
         run->series.max_step = select_value(is_large, shorter, run->series.max_step);
         h = real_min(h, run->series.max_step);
-        uncount_end_evaluation(run);
+        subtract_end_evaluation(run);
     }
     taylor_estimate_stiffness(run, step->h);
     step->error = real_max(step->error, defect);

@@ -17,8 +17,8 @@ int compute_absolute_accelerations(double t, const double *absolute_state, const
     RhsOutputs rhs;
     DiscreteState now = *discrete;
     now.is_frozen = 0; /* switching functions of all bodies have other indices */
-    now.least = NEARLY_SINGULAR;
-    now.least_size = VANISHING;
+    now.min_pivot = NEARLY_SINGULAR;
+    now.min_pivot_size = VANISHING;
     const int status = evaluate_rates_at(t, absolute_state, &now, p, rate, &rhs);
     for (int k = 0; k < N_Q; k++)
         a[k] = rate[N_Q + k];

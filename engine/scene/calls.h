@@ -54,7 +54,7 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
     const double *p);
 #endif
 #if HAS_ABSOLUTE_FALLBACK
-int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *discrete, const double *p,
+int gudgeon_absolute_fallback(double t, const double *q, const double *v, const double *discrete, const double *p,
     double *a);
 #endif
 #if N_DEPENDENT
@@ -70,17 +70,17 @@ void gudgeon_run_record(void *integrator, double *rows, long capacity);
 long gudgeon_run_recorded(void *integrator);
 void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes);
 void gudgeon_run_stop(void *integrator, int stop);
-int gudgeon_run_has_full_lists(const void *integrator);
+int gudgeon_run_has_full_buffers(const void *integrator);
 int gudgeon_run_count_listed(const void *integrator);
 int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *discrete,
     signed char *codes);
-int gudgeon_run_impacts(void *integrator, int last, int capacity, double *numbers, int *joints);
+int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double *values, int *joints);
 int gudgeon_method(const char *name);
-void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
-    double fixed);
-int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
+void gudgeon_adaptive_setup(void *integrator, int method, int stiff_method, const double *scale,
+    const double *min_size, double fixed_step);
+int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long max_steps,
     double *y, double *discrete_states, signed char *contact_codes, long *n_stored);
-void gudgeon_run_report(const void *integrator, double *t, long *counts, double *numbers, double *peaks);
+void gudgeon_run_report(const void *integrator, double *t, long *counts, double *residuals, double *peaks);
 
 /*
  * A batch of runs: arrays have a row for each run; `numbers` is the number of doubles of Parameters. Samples of run i
@@ -94,27 +94,27 @@ typedef struct {
     double *t;
     long time_stride, *n_requested, *sample_block; /* run i: n_requested[i] times from t + i * time_stride; 0: common */
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *least;         /* fixed steps, s; tolerances as for gudgeon_adaptive_setup */
+    double *step, *scale, *min_size;       /* fixed steps, s; tolerances as for gudgeon_adaptive_setup */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
-    double *remembered;                   /* discrete states at the start, as in a sample */
+    double *initial_discrete_states;      /* discrete states at the start, as in a sample */
     signed char *codes;                   /* contact codes of a resumed run */
-    double *y, *latched;                  /* samples */
+    double *y, *discrete_states;          /* samples */
     signed char *state;
     long *done, *checked;                 /* samples stored; samples checked to be finite */
     int *status;
     double *t_last, *last, *seconds;      /* time and state at the end; wall time of the time loop, s */
     long *counts;                         /* as in gudgeon_run_report */
     double *residuals, *peaks;
-    double *audited, *audited_t;          /* largest value of each audit check, -1: none; its time and location */
-    int *audited_where;
-    double *gained;                       /* time gained by the last steps, s; their number, stall; causes */
-    long *paced, *ended;
-    double *trace;                        /* rows of an envelope for each run, trace_rows of them; NULL: none */
-    long trace_rows, *traced;             /* written rows */
-    int (*ask)(void *);                   /* polled with `caller` every `every` seconds; nonzero: cancel; or NULL */
-    void *caller;
-    double every;
+    double *audit_values, *audit_times;   /* largest value of each audit check, -1: none; its time and location */
+    int *audit_locations;
+    double *time_gain;                    /* time gained by the last steps, s; their number, slowdown; causes */
+    long *monitored_steps, *ended;
+    double *envelope;                     /* rows of an envelope for each run, envelope_capacity of them; NULL: none */
+    long envelope_capacity, *n_envelope_rows; /* written rows */
+    int (*is_stop_requested)(void *);     /* polled with `context` every `poll_interval` s; nonzero: cancel; or NULL */
+    void *context;
+    double poll_interval;
     const volatile int *ending;           /* nonzero: all runs end at once */
 } Batch;
 
@@ -174,8 +174,8 @@ void gudgeon_kinematic_ensemble(const void *batch, void *integrator, long n, con
 #endif
 #if !INTEGRATES && N_USER_EVENTS
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *branch, long capacity, double *event_time, int *event,
-    long *n_found, long *n_done);
+    const double *v, double run_begin, int can_stop, signed char *last_sign, long capacity, double *event_time,
+    int *event, long *n_found, long *n_done);
 #endif
 
 #pragma GCC visibility pop

@@ -31,13 +31,13 @@ typedef struct {
  * Return delta'' of a joint in m/s^2, the acceleration of its penetration, from e . e'' + e' . e' = e e'' + e'^2. For a
  * corner at a wall it is known without that division by e.
  */
-static double compute_outward_acceleration(const Clearance *clearance)
+static double compute_penetration_acceleration(const Clearance *clearance)
 {
 #ifdef WALLS
     if (clearance->at_wall)
-        return clearance->half_square_rate;
+        return clearance->half_square_second_derivative;
 #endif
-    return (clearance->half_square_rate - clearance->deltadot * clearance->deltadot) / clearance->e;
+    return (clearance->half_square_second_derivative - clearance->deltadot * clearance->deltadot) / clearance->e;
 }
 
 /*
@@ -82,7 +82,7 @@ static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, cons
         discrete->contact[contacts->joint[k]].force = 0.0;
     int status = evaluate_rates(t, y, discrete, p, rates_base, &rhs);
     for (int k = 0; k < contacts->n; k++)
-        contacts->r[k] = compute_outward_acceleration(&rhs.clearance[contacts->joint[k]]);
+        contacts->r[k] = compute_penetration_acceleration(&rhs.clearance[contacts->joint[k]]);
     const double unit_force = choose_unit_force(contacts, p);
     for (int column = 0; column < contacts->n && !status; column++) {
         ContactState *contact = &discrete->contact[contacts->joint[column]];
@@ -91,7 +91,7 @@ static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, cons
         contact->force = 0.0;
         for (int k = 0; k < contacts->n; k++)
             contacts->D[k][column] = (contacts->r[k]
-                - compute_outward_acceleration(&rhs.clearance[contacts->joint[k]])) / unit_force;
+                - compute_penetration_acceleration(&rhs.clearance[contacts->joint[k]])) / unit_force;
         for (int k = 0; k < n_rates; k++)
             contacts->response[column][k] = (rates_pushed[k] - rates_base[k]) / unit_force;
     }

@@ -222,8 +222,8 @@ static inline void compute_curve_bounds(
 }
 
 /*
- * Return the part of x within the range of a curve: all of it for a periodic curve, empty if there is none. The result
- * may be undefined if x exceeds the range by more than CURVE_MARGIN of its length.
+ * Return the part of x within the range of a curve, extended at both ends by CURVE_MARGIN of its length: all of x for a
+ * periodic curve, empty if there is none. The result may be undefined if x exceeds the extended range.
  */
 static inline Interval restrict_to_curve_range(const Curve *curve_table, Interval x)
 {
@@ -262,8 +262,9 @@ static inline Interval bound_curve(const Curve *curve_table, int order, Interval
 }
 
 /*
- * Return bounds of evaluate_knot_switch(), a parabola in each piece, and of its slope. Over a period or more of a
- * periodic curve they are -1 and 1 with unbounded slope. Empty if x is.
+ * Return bounds of evaluate_knot_switch() and of its slope. This switching function is zero at the knots; in each piece
+ * it is a parabola, or a line or constant at an end of the curve, with the sign of the piece's branch. Over a period or
+ * more of a periodic curve the bounds are -1 and 1 with unbounded slope. Empty if x is.
  */
 static inline Interval bound_knot_switch(const Curve *curve_table, Interval x)
 {

@@ -1,16 +1,16 @@
 /* Exact Jacobian of the state equation, from the linearized equations of motion. */
 
 /*
- * Compute x (N_NODES) = -column of the derivative of the residuals of the equations of motion by the integrated state
- * (columns 0 ... N_Y - 1) or by t (N_Y). baumgarte_gains: beta^2 and 2 alpha; stick_gain: the same gain for sticking
- * friction. Return 0 if all entries are zero, as for the works, else 1.
+ * Compute x (N_LINEAR_UNKNOWNS) = -column of the derivative of the residuals of the equations of motion by the
+ * integrated state (columns 0 ... N_Y - 1) or by t (N_Y). baumgarte_gains: beta^2 and 2 alpha; stick_gain: the same
+ * gain for sticking friction. Return 0 if all entries are zero, as for the works, else 1.
  */
 static int compute_residual_column(const Linear *linearization, int column, const double *baumgarte_gains,
     double stick_gain,
     double *x)
 {
     int is_nonzero = 0;
-    for (int i = 0; i < N_NODES; i++)
+    for (int i = 0; i < N_LINEAR_UNKNOWNS; i++)
         x[i] = 0.0;
     for (int i = 0; i < N_RESIDUAL && column < N_Y; i++) {
         const LinearEntry *entry = &residual_entries[i];
@@ -36,9 +36,9 @@ static int compute_residual_column(const Linear *linearization, int column, cons
 }
 
 /*
- * Compute a column of the Jacobian of the state equation (N_Y entries) from x (N_NODES), the change of accelerations,
- * multipliers and rates of internal states. column: 0 ... N_Y - 1, or N_Y for the derivative by t. stride: distance of
- * successive values in column_values.
+ * Compute a column of the Jacobian of the state equation (N_Y entries) from x (N_LINEAR_UNKNOWNS), the change of
+ * accelerations, multipliers and rates of internal states. column: 0 ... N_Y - 1, or N_Y for the derivative by t.
+ * stride: distance of successive values in column_values.
  */
 static void compute_jacobian_column(const Linear *linearization, int column, const double *x,
     double *column_values, long stride)
@@ -50,7 +50,7 @@ static void compute_jacobian_column(const Linear *linearization, int column, con
     for (int work = 0; work < N_WORK; work++)
         column_values[(2 * N_X + work) * stride] = 0.0;
     for (int k = 0; k < N_STATES; k++)
-        column_values[(FIRST_STATE + k) * stride] = x[N_NODES - N_STATES + k];
+        column_values[(FIRST_STATE + k) * stride] = x[N_LINEAR_UNKNOWNS - N_STATES + k];
     for (int i = 0; i < N_POWER_ROW; i++) {
         const LinearEntry *entry = &power_row_entries[i];
         column_values[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value]
@@ -103,7 +103,7 @@ int gudgeon_jacobian(double t, const double *y, const double *discrete, const do
     if (status)
         return status;
     for (int column = 0; column <= N_Y; column++) {
-        double x[N_NODES];
+        double x[N_LINEAR_UNKNOWNS];
         if (compute_residual_column(&linearization, column, gain, stick_gain((const Parameters *)p), x))
             newton_substitute(&linearization, x);
         compute_jacobian_column(&linearization, column, x, column < N_Y ? J + column : f_t, column < N_Y ? N_Y : 1);

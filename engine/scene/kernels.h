@@ -82,7 +82,10 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 void convert_from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y);
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
-/* Rates and steps at the state itself, without continuation; NEAR: the motion is to be continued from both sides. */
+/*
+ * Rates and steps at the state itself, without continuation; NEAR_SINGULAR: the motion is to be continued from both
+ * sides.
+ */
 int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 /* Contacts of joints with play at a state: gaps, their rates, forces of laws. */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs);

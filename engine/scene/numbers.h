@@ -60,9 +60,9 @@ static inline double compute_step_end(double t_begin, double t_end, double fixed
 }
 
 /* Return a point slightly larger than x, for a difference quotient. */
-static inline double just_ahead(double x) { return x + 1e-9 * (1.0 + fabs(x)); }
+static inline double slightly_above(double x) { return x + 1e-9 * (1.0 + fabs(x)); }
 /* Return a point slightly smaller than x, for a difference quotient. */
-static inline double just_behind(double x) { return x - 1e-9 * (1.0 + fabs(x)); }
+static inline double slightly_below(double x) { return x - 1e-9 * (1.0 + fabs(x)); }
 /*
  * Return the derivative, or the difference quotient of two values `distance` apart if the derivative is not finite, as
  * of a saturated term whose derivative overflows.

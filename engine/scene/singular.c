@@ -20,11 +20,12 @@ typedef struct {
     double basis[N_Q][N_Q];                   /* orthonormal basis of the rows so far, then of the null space */
     double remainder[N_Q][N_PADDED_ROWS];     /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
     double lower[AT_LEAST_ONE(N_ROWS)][N_PADDED_ROWS]; /* row i = sum over k of lower[k][i] basis[k] */
-    double unused[N_PADDED_ROWS];                  /* 1 of a row that is not in the basis, 0 of others */
-    double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], residual[AT_LEAST_ONE(N_ROWS)];
-    double norm[AT_LEAST_ONE(N_ROWS)], magnitude[AT_LEAST_ONE(N_ROWS)]; /* of rows; of terms of right-hand sides */
-    /* M over the norm, its root^-1 g, Z^T M Z and its solution */
-    double fraction[N_Q], force[N_Q], null_space_mass[N_Q][N_Q], z[N_Q];
+    double is_unselected[N_PADDED_ROWS];             /* 1 of a row that is not in the basis, 0 of others */
+    double phi_q[N_ALL_ROWS][N_Q], root_norm[N_Q], y[N_Q], residual[AT_LEAST_ONE(N_ROWS)];
+    double row_norm_squared[AT_LEAST_ONE(N_ROWS)];
+    double magnitude[AT_LEAST_ONE(N_ROWS)];   /* of the terms of right-hand sides */
+    /* M over the norm, (root of the norm)^-1 g, Z^T M Z and its solution */
+    double mass_over_norm[N_Q], force[N_Q], null_space_mass[N_Q][N_Q], z[N_Q];
     int order[AT_LEAST_ONE(N_ROWS)], has_small_mass;
     Cancellation *cancellation;
 } Workspace;
@@ -89,7 +90,7 @@ static void remove_basis_component(Workspace *workspace, int rank)
         double components[N_PADDED_ROWS];
         multiply_rows_by_vector(workspace->remainder, basis, components);
         for (int i = 0; i < N_PADDED_ROWS; i++) {
-            components[i] *= workspace->unused[i];
+            components[i] *= workspace->is_unselected[i];
             workspace->lower[rank][i] += components[i];
         }
         subtract_from_rows(workspace->remainder, basis, components);
@@ -111,7 +112,8 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
         double largest = 0.0, square[N_PADDED_ROWS];
         compute_squared_norms(workspace->remainder, square);
         for (int i = rank; i < N_ROWS; i++) {
-            const double relative_square = square[workspace->order[i]] / workspace->norm[workspace->order[i]];
+            const double relative_square =
+                square[workspace->order[i]] / workspace->row_norm_squared[workspace->order[i]];
             if (relative_square > largest) {
                 largest = relative_square;
                 pivot = i;
@@ -126,40 +128,41 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
         for (int k = 0; k < N_Q; k++)
             workspace->basis[rank][k] = workspace->remainder[k][row] / length;
         workspace->lower[rank][row] = length;
-        workspace->unused[row] = 0.0;
+        workspace->is_unselected[row] = 0.0;
         remove_basis_component(workspace, rank);
     }
     return rank;
 }
 
 /*
- * Compute the norm that replaces the mass matrix where masses (below MIN_MASS of the largest) or moments of inertia
- * (below MIN_INERTIA m s^2) are small. workspace->root is M on entry and the square roots of the norm on return;
- * fraction: M over the norm; null_space_mass[0]: the norm; has_small_mass: whether any is small. Called by
- * initialize_workspace().
+ * Compute the diagonal norm that replaces the mass matrix where masses or moments of inertia are small. It is at least
+ * MIN_MASS of the largest mass; for angles at least MIN_INERTIA m s^2, where s is the longest lever arm of the body in
+ * a constraint equation, or 1e-300 without an arm. workspace->root_norm is M on entry and the square roots of the norm
+ * on return; mass_over_norm: M over the norm; null_space_mass[0]: the norm; has_small_mass: whether any is small.
+ * Called by initialize_workspace().
  */
 static void compute_mass_norm(Workspace *workspace)
 {
     double heaviest = 0.0;
     for (int k = 0; k < N_Q; k++)
-        heaviest = k % 3 < 2 ? max_of(heaviest, workspace->root[k]) : heaviest;
+        heaviest = k % 3 < 2 ? max_of(heaviest, workspace->root_norm[k]) : heaviest;
     for (int k = 0; k < N_Q; k++) {
-        double arm_squared = 0.0, mass = k % 3 < 2 ? max_of(workspace->root[k], MIN_MASS * heaviest)
-            : workspace->root[k];
+        double arm_squared = 0.0, mass = k % 3 < 2 ? max_of(workspace->root_norm[k], MIN_MASS * heaviest)
+            : workspace->root_norm[k];
         for (int i = 0; i < N_ROWS && k % 3 == 2; i++) {
-            const double *row = workspace->all[motion_row[i]];
+            const double *row = workspace->phi_q[motion_row[i]];
             if (row[k - 2] != 0.0 || row[k - 1] != 0.0)
                 arm_squared = max_of(arm_squared, row[k] * row[k]);
         }
         if (k % 3 == 2)
             mass = max_of(mass, arm_squared > 0.0 ? MIN_INERTIA * workspace->null_space_mass[0][k - 1] * arm_squared
                 : 1e-300);
-        workspace->fraction[k] = workspace->root[k] / mass;
-        workspace->has_small_mass |= workspace->fraction[k] < 1.0;
+        workspace->mass_over_norm[k] = workspace->root_norm[k] / mass;
+        workspace->has_small_mass |= workspace->mass_over_norm[k] < 1.0;
         workspace->null_space_mass[0][k] = mass;
     }
     for (int k = 0; k < N_Q; k++)
-        workspace->root[k] = sqrt(workspace->null_space_mass[0][k]);
+        workspace->root_norm[k] = sqrt(workspace->null_space_mass[0][k]);
 }
 
 /*
@@ -173,22 +176,22 @@ static void initialize_workspace(Workspace *workspace, double t, const double *q
     const double *rhs)
 {
     *workspace = (Workspace){0};
-    mass_matrix(p, workspace->root);
-    jacobian(t, q, p, &workspace->all[0][0]);
+    mass_matrix(p, workspace->root_norm);
+    jacobian(t, q, p, &workspace->phi_q[0][0]);
     compute_mass_norm(workspace);
     for (int k = 0; k < N_Q; k++) {
-        workspace->force[k] = force[k] / workspace->root[k];
+        workspace->force[k] = force[k] / workspace->root_norm[k];
         workspace->y[k] = workspace->has_small_mass ? 0.0 : workspace->force[k];
     }
     for (int i = 0; i < N_ROWS; i++) {
         double row[N_Q];
         workspace->order[i] = i;
-        workspace->unused[i] = 1.0;
+        workspace->is_unselected[i] = 1.0;
         for (int k = 0; k < N_Q; k++)
-            row[k] = workspace->remainder[k][i] = workspace->all[motion_row[i]][k] / workspace->root[k];
-        workspace->norm[i] = compute_dot_product(row, row) + 1e-300;
+            row[k] = workspace->remainder[k][i] = workspace->phi_q[motion_row[i]][k] / workspace->root_norm[k];
+        workspace->row_norm_squared[i] = compute_dot_product(row, row) + 1e-300;
         workspace->residual[i] = rhs[i] - compute_dot_product(row, workspace->y);
-        workspace->magnitude[i] = fabs(rhs[i]) + sqrt(workspace->norm[i]
+        workspace->magnitude[i] = fabs(rhs[i]) + sqrt(workspace->row_norm_squared[i]
             * compute_dot_product(workspace->y, workspace->y)); /* its size, for the comparison below */
     }
 }
@@ -237,11 +240,11 @@ static int add_free_motion(Workspace *workspace, int rank)
         double *row = workspace->null_space_mass[i];
         workspace->z[i] = compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
-            workspace->z[i] -= workspace->basis[i][k] * workspace->fraction[k] * workspace->y[k];
+            workspace->z[i] -= workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->y[k];
         for (int j = rank; j <= i; j++) {
             row[j] = 0.0;
             for (int k = 0; k < N_Q; k++)
-                row[j] += workspace->basis[i][k] * workspace->fraction[k] * workspace->basis[j][k];
+                row[j] += workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->basis[j][k];
         }
         const double diagonal = row[i];
         for (int j = rank; j <= i; j++) {
@@ -265,7 +268,7 @@ static int add_free_motion(Workspace *workspace, int rank)
     for (int i = 0; i < rank; i++) {
         double sum = -compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
-            sum += workspace->basis[i][k] * workspace->fraction[k] * workspace->y[k];
+            sum += workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->y[k];
         workspace->residual[workspace->order[i]] = sum;
     }
     return 1;
@@ -314,21 +317,21 @@ static int solve_independent_equations(Workspace *workspace, double pivot_tol_sq
  * Compute accelerations a and multipliers lambda where a pivot of the equations of motion nearly vanishes. force: g;
  * rhs: gamma - 2 alpha Phi_dot - beta^2 Phi; pivot: number of the pivot. Nearly dependent equations (NEARLY_SINGULAR)
  * are left out if they agree with the others; in a second pass only those dependent to rounding (SINGULAR). Return 0,
- * NEAR if the motion is to be continued from both sides, STOPPED, or `pivot` if the constraints are contradictory,
- * accelerations are not finite, or memory is short. Called by the equations of motion after their factorization has
- * failed.
+ * NEAR_SINGULAR if the motion is to be continued from both sides, STOPPED, or `pivot` if the constraints are
+ * contradictory, accelerations are not finite, or memory is short. Called by the equations of motion after their
+ * factorization has failed.
  */
 int solve_dependent_equations(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete)
 {
     static const double pivot_tols_squared[] = {NEARLY_SINGULAR, SINGULAR}, tolerances[] = {1e-3, 1e-6};
-    if (discrete->least > NEARLY_SINGULAR)
-        return NEAR;
+    if (discrete->min_pivot > NEARLY_SINGULAR)
+        return NEAR_SINGULAR;
     Workspace *workspace = malloc(sizeof(Workspace));
     int status = pivot;
     for (int pass = 0; workspace && status && pass < 2; pass++) {
         initialize_workspace(workspace, t, q, p, force, rhs);
-        workspace->cancellation = discrete->token;
+        workspace->cancellation = discrete->cancellation;
         status = solve_independent_equations(workspace, pivot_tols_squared[pass], tolerances[pass], lambda);
         if (status == STOPPED)
             break;
@@ -338,7 +341,7 @@ int solve_dependent_equations(double t, const double *q, const Parameters *p, co
         }
         status = 0;
         for (int k = 0; k < N_Q; k++) {
-            a[k] = workspace->y[k] / workspace->root[k];
+            a[k] = workspace->y[k] / workspace->root_norm[k];
             if (!isfinite(a[k]))
                 status = pivot;
         }

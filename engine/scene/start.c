@@ -121,8 +121,10 @@ static int remove_full_turns(StartWorkspace *workspace, double t, const Paramete
 
 /*
  * Replace q by the nearest to the guess of three closed configurations: q, the one with guessed coordinates mirrored at
- * the guess, and the one with all coordinates mirrored. q stays if its change from the guess is below
- * MIN_MIRRORED_CHANGE; mirrored starts that do not close are omitted. Called after a configuration is closed.
+ * the guess, and the one with all coordinates mirrored; set coordinates keep their values. q stays if its change from
+ * the guess is below MIN_MIRRORED_CHANGE. A mirrored configuration is closed anew and reduced by full turns. It is
+ * taken only if its distance is smaller by the fraction MIN_DISTANCE_REDUCTION; it is omitted if it does not close or
+ * leaves the bounds. Called after a configuration is closed.
  */
 static void select_nearest_start(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -219,8 +221,9 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
 /*
  * Compute the start nearest to the guess that the parameters contain. Outputs: coordinates q and velocities v (N_Q
  * each), and *residual, the largest |Phi| or deviation from a set coordinate reached, m or rad. t: time, s; size: of
- * the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from the
- * guess, has no velocities, was cancelled, guesses points, or memory is short. Called for each run of a batch.
+ * the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from the guess
+ * (compute_change_from_guess() of 1 or more) or out of bounds, has no velocities, was cancelled, guesses points, or
+ * memory is short. Called for each run of a batch.
  */
 int compute_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)

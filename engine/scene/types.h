@@ -30,20 +30,20 @@ enum {
 };
 
 enum {
-    NEAR = -20
+    NEAR_SINGULAR = -20
 }; /* status of functions: a pivot is so small that the motion is continued from both sides (continuation.c) */
 
 /*
- * Cancellation of a long computation (cancellation.c): `ask` is polled every `every` seconds; NULL: it cannot be
- * cancelled. The clock is read once in `poll_after` right-hand sides, and within a dense system. Written by:
- * run/cancellation.h, run/cancellation.c.
+ * Cancellation of a long computation (cancellation.c): is_stop_requested(context) is polled every
+ * `poll_interval` seconds; NULL: it cannot be cancelled. The clock is read once in `poll_after` right-hand sides, and
+ * within a dense system. Written by: run/cancellation.h, run/cancellation.c.
  */
 typedef struct {
-    int (*ask)(void *caller); /* nonzero: stop */
-    void *caller;
-    double every, last, next; /* s; interval, time of the last reading, time of the next poll */
+    int (*is_stop_requested)(void *context); /* nonzero: stop */
+    void *context;
+    double poll_interval, last_reading, next_poll; /* s; interval, time of the last reading, time of the next poll */
     long count, poll_after;
-    int stop, hold; /* cancelled; cancellation is deferred until the current operation ends */
+    int stop, is_deferred; /* cancelled; cancellation is deferred until the current operation ends */
 } Cancellation;
 
 /* Whether the surfaces of joint i with play are compliant. If rigid, velocities jump and a contact is a constraint. */
@@ -102,11 +102,11 @@ typedef struct {
     double branch[AT_LEAST_ONE(N_SWITCHES)];
     signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* last sign of each user event; 0: none yet */
     int is_frozen;
-    Cancellation *token; /* NULL: no cancellation */
+    Cancellation *cancellation; /* NULL: no cancellation */
     int singular_policy;                  /* policy near a singular position, one of those below */
-    double least, least_size; /* fraction of a pivot, of one or two equations, below which they are dependent */
+    double min_pivot, min_pivot_size; /* fraction of a pivot, of one or two equations, below which they are dependent */
 #if N_DEPENDENT
-    DrivenLoops chain, recent; /* driven loops at the last accepted state; at the last evaluated time */
+    DrivenLoops accepted_loops, latest_loops; /* driven loops at the last accepted state; at the last evaluated time */
 #endif
 } DiscreteState;
 /* Whether runs continue the motion at singular positions (continuation.c): scenes whose equations do not change. */
@@ -117,14 +117,14 @@ typedef struct {
 #endif
 enum {
     SINGULAR_CONTINUE, /* continue the motion from both sides */
-    SINGULAR_DETECT,   /* report NEAR */
-    SINGULAR_PROJECT,  /* project every state, and continue; NEAR if that fails */
+    SINGULAR_DETECT,   /* report NEAR_SINGULAR */
+    SINGULAR_PROJECT,  /* project every state, and continue; NEAR_SINGULAR if that fails */
     SINGULAR_PROJECT_OR_IGNORE,  /* the same; as SINGULAR_IGNORE if that fails */
     SINGULAR_IGNORE  /* no test */
 };
-/* `least` of such a run: about the squared angle to the singular position */
+/* `min_pivot` of such a run: about the squared angle to the singular position */
 #define NEAR_SINGULAR_PIVOT (TREE ? 1e-5 : 1e-4)
-#define DEFAULT_PIVOT_LIMITS .least = NEARLY_SINGULAR, .least_size = VANISHING
+#define DEFAULT_PIVOT_LIMITS .min_pivot = NEARLY_SINGULAR, .min_pivot_size = VANISHING
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {
@@ -151,9 +151,9 @@ typedef struct {
     double state_rate[LAW_STATES];       /* of the laws' internal states, each unit a second */
 #endif
 #if N_RIGID
-    double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; of rigid surfaces */
+    double half_square_second_derivative;             /* e . e'' + e' . e', m^2/s^2; of rigid surfaces */
 #ifdef WALLS
-    int at_wall;                         /* then half_square_rate is delta'' itself, m/s^2 */
+    int at_wall;                         /* then half_square_second_derivative is delta'' itself, m/s^2 */
 #endif
 #endif
 } Clearance;

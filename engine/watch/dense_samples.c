@@ -36,7 +36,7 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
  * raised by one error tolerance at once: uncertainty (N_WATCHED), by one evaluation. Smaller values cannot be resolved.
  * Called by is_step_unresolved() for the allowed error of samples.
  */
-static void estimate_event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p,
+static void estimate_tolerance_uncertainty(Integrator *run, const Step *step, const Parameters *p,
     double *uncertainty)
 {
     double y[N_Y];
@@ -100,17 +100,19 @@ static double compute_resolution_error(const double *samples, double sufficient_
 
 /*
  * Return whether samples of the dense output do not resolve a watched function that may have a zero, so that the step
- * is too long. Stores the samples in step->sample, and in step->near which functions may have a zero. Return 0 without
- * such a function, without dense output, or if samples are as near as event times. Called for each tried step before it
- * is accepted; such a step is repeated shorter.
+ * is too long. It is unresolved if cubics between the samples err by more than 0.05 of their range, or if the stages of
+ * an explicit step have more than twice that range (aliasing). Stores the samples in step->sample, and in
+ * step->may_be_zero which functions may have a zero. Return 0 without such a function, without dense output, or if
+ * samples are as near as event times. Called for each tried step before it is accepted; such a step is repeated
+ * shorter.
  */
 static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
     double range[N_WATCHED], uncertainties[N_WATCHED];
     step->has_zero_bracket = 0;
     for (int i = 0; i < N_WATCHED; i++) {
-        step->near[i] = (unsigned char)may_have_zero(run, step, watched[i], &range[i]);
-        step->has_zero_bracket |= step->near[i];
+        step->may_be_zero[i] = (unsigned char)may_have_zero(run, step, watched[i], &range[i]);
+        step->has_zero_bracket |= step->may_be_zero[i];
     }
     if (!step->has_zero_bracket || compute_dense_output(run, p, step))
         return 0;
@@ -126,7 +128,7 @@ static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
     }
     if (N_SAMPLES * compute_event_time_tolerance(run, step) >= 1.0)
         return 0; /* the samples are as near as times can be (a pole, many jumps) */
-    estimate_event_function_uncertainty(run, step, p, uncertainties);
+    estimate_tolerance_uncertainty(run, step, p, uncertainties);
     for (int i = 0; i < N_WATCHED; i++) {
         double smallest = INFINITY, largest = -INFINITY;
         for (int sample = 0; sample <= N_SAMPLES; sample++) {
@@ -137,7 +139,7 @@ static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
                      error = compute_resolution_error(step->sample[i], allowed);
         /* stages with a far larger range than the samples: the samples are in step with an oscillation */
         const int is_aliased = range[i] > 2.0 * (largest - smallest) + 10.0 * uncertainties[i] && !step->method->stiff;
-        if (step->near[i] && (error > allowed || is_aliased) && smallest - error < 0.0)
+        if (step->may_be_zero[i] && (error > allowed || is_aliased) && smallest - error < 0.0)
             return 1;
     }
     return 0;
@@ -175,14 +177,15 @@ static double refine_minimum(
 
 /*
  * Return the first fraction of the step at which a watched function (switching function or user event) is negative, and
- * its value there in *value; 0: none, *value is then undefined. index: of the watched function. Samples and, between
- * them, minima of parabolas are tested in order.
+ * its value there in *value; 0: none, *value is then undefined. index: of the watched function; functions without a
+ * possible zero (step->may_be_zero) are not searched. Samples are tested in order; between them, the minimum of a
+ * parabola that comes near zero is refined (refine_minimum()).
  */
 static double find_first_negative_sample(Integrator *run, const Step *step, int index, const Parameters *p,
     double *value)
 {
     const double *f = step->sample[index];
-    for (int j = 1; j <= N_SAMPLES && step->near[index]; j++) {
+    for (int j = 1; j <= N_SAMPLES && step->may_be_zero[index]; j++) {
         const double second_difference = j > 1 ? f[j - 2] - 2.0 * f[j - 1] + f[j] : 0.0;
         if (second_difference > 0.0 && f[j - 2] > f[j - 1] && f[j - 1] <= f[j]) {
             const double offset = 0.5 * (f[j - 2] - f[j]) / second_difference,
@@ -204,15 +207,15 @@ static double find_first_negative_sample(Integrator *run, const Step *step, int 
 }
 
 /*
- * Reset the brackets of all watched event functions: set step->from to 0, no bracket. Nothing is evaluated here:
- * without bounds, find_first_negative_sample() searches the samples instead. Called by find_first_event(); watched.c
- * brackets zeros under the same name.
+ * Set the brackets of all watched event functions to none (step->bracket_begin = 0). Nothing is evaluated here: without
+ * interval bounds, find_first_negative_sample() searches the samples instead. Called by find_first_event(). With
+ * interval bounds, watched.c defines this function and finds the brackets.
  */
 static void bracket_first_zeros(const Integrator *run, Step *step, const Parameters *p)
 {
     (void)run, (void)p;
     for (int i = 0; i < N_WATCHED; i++)
-        step->from[i] = 0.0;
+        step->bracket_begin[i] = 0.0;
 }
 
 #else

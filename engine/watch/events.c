@@ -9,13 +9,13 @@ enum { N_INNER_SAMPLES = 8 };
 #define MAX_PASSED_BRANCH_ERROR 0.1 /* of the tolerance: accepted change of a step by a branch that is not switched */
 
 /*
- * Change the branch of each switching point that the step passes without an event (step->passed); a second call
+ * Change the branch of each switching point that the step passes without an event (step->is_ignored); a second call
  * restores the branches. Called around an evaluation on the new branches, and when the step is accepted.
  */
-static void flip_passed_branches(Integrator *run, const Step *step)
+static void flip_ignored_branches(Integrator *run, const Step *step)
 {
     for (int k = 0; k < N_SWITCHES; k++)
-        if (step->passed[k])
+        if (step->is_ignored[k])
             run->discrete.branch[k] *= -1.0;
 }
 
@@ -32,36 +32,36 @@ static int has_negative_switch_at_end(const Integrator *run, const Step *step)
 }
 
 /*
- * Mark in step->passed the switching points that the step may pass without an event, and return whether there is any.
- * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch()),
+ * Mark in step->is_ignored the switching points that the step may pass without an event, and return whether there is
+ * any. They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch()),
  * crossed near the end of the step. The error of the frozen branch is at most the step times the difference of the
  * rates at its end. Below MAX_PASSED_BRANCH_ERROR tolerances, step->dy and step->rhs are replaced by those of the new
  * branch. Otherwise no point is passed, and suppressed ones are searched again. Also sets step->branch_error. Called by
  * find_first_event() before zeros are searched.
  */
-static int pass_negligible_switches(Integrator *run, Step *step, const Parameters *p)
+static int ignore_negligible_switches(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y], largest_change = 0.0;
-    int has_passed = 0;
+    int has_ignored = 0;
     RhsOutputs rhs;
     step->branch_error = INFINITY;
     if (!has_negative_switch_at_end(run, step)) {
-        memset(step->passed, 0, sizeof step->passed);
+        memset(step->is_ignored, 0, sizeof step->is_ignored);
         return 0;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = is_continuous_switch[k] && watched_index[gap_function] < 0 && run->control.fixed <= 0.0;
         /* of laws only with step-size control: fixed steps have no tolerance to compare with */
-        const int may_pass = is_of_law || k == run->roots.suppressed_switch;
-        step->passed[k] = may_pass && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
-        has_passed |= step->passed[k];
+        const int may_ignore = is_of_law || k == run->roots.suppressed_switch;
+        step->is_ignored[k] = may_ignore && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
+        has_ignored |= step->is_ignored[k];
     }
-    if (!has_passed)
+    if (!has_ignored)
         return 0;
-    flip_passed_branches(run, step);
+    flip_ignored_branches(run, step);
     const int status = evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs);
-    flip_passed_branches(run, step); /* frozen until the step is accepted */
+    flip_ignored_branches(run, step); /* frozen until the step is accepted */
     for (int k = 0; k < 2 * N_X && !status; k++)
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
@@ -76,31 +76,31 @@ static int pass_negligible_switches(Integrator *run, Step *step, const Parameter
         return 1;
     }
     for (int k = 0; k < N_SWITCHES; k++)
-        step->passed[k] = 0;
+        step->is_ignored[k] = 0;
     clear_suppressed_switch(run); /* also the suppressed one: its error is too large */
     return 0;
 }
 
 /*
  * Return whether an event function is not searched for a zero: that of a switching point that is suppressed
- * (roots.suppressed_switch) or that this step passes (step->passed). event: its number.
+ * (roots.suppressed_switch) or that this step passes (step->is_ignored). event: its number.
  */
 static int is_event_ignored(const Integrator *run, const Step *step, int event)
 {
     const int switch_index = event - N_CLEARANCES;
     return switch_index >= 0 && switch_index < N_SWITCHES
-        && (switch_index == run->roots.suppressed_switch || step->passed[switch_index]);
+        && (switch_index == run->roots.suppressed_switch || step->is_ignored[switch_index]);
 }
 
 /*
- * Return the node (0 to 1) of the stage at which an event function has its minimum over the stages, step->lowest; 1 if
- * no stage has that value.
+ * Return the node (0 to 1) of the stage at which an event function has its minimum over the stages,
+ * step->min_event_value; 1 if no stage has that value.
  */
 static double find_stage_of_minimum(const Step *step, int event)
 {
     const StageValues stages = get_stage_values(step, event);
     for (int i = 0; i < step->n_stored_stages; i++)
-        if (read_stage(stages, i) == step->lowest[event])
+        if (read_stage(stages, i) == step->min_event_value[event])
             return step->node[i];
     return 1.0;
 }
@@ -127,12 +127,12 @@ static double find_first_negative_stage(const Step *step, int event, double end_
  * of a gap. For a switching point or user event it is the end that find_first_negative_sample() returns. For others it
  * is a negative stage that the dense output confirms, or the end of the step.
  */
-static double find_bracket_end(Integrator *run, Step *step, int event, const Parameters *p, double *value)
+static double find_negative_end_of_bracket(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
     if (watched_index[event] >= 0)
         return find_first_negative_sample(run, step, watched_index[event], p, value);
     const double end_value = compute_event_value(&run->discrete, &step->rhs, event);
-    for (int pass = 0; pass < 2 && step->lowest[event] < 0.0; pass++) {
+    for (int pass = 0; pass < 2 && step->min_event_value[event] < 0.0; pass++) {
         const double fraction = pass ? find_stage_of_minimum(step, event)
             : find_first_negative_stage(step, event, end_value);
         if (fraction >= 1.0 || compute_dense_output(run, p, step))
@@ -156,7 +156,7 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
     double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
     if (watched_index[event] < 0)
         return 1;
-    estimate_uncertainty(run, t, y, p, error);
+    estimate_rounding_uncertainty(run, t, y, p, error);
     return !(fabs(compute_event_value(&run->discrete, rhs, event)) <= error[watched_index[event]]);
 }
 
@@ -164,7 +164,8 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
  * Return whether the magnitude of an event function is larger than its uncertainty at a fraction of the step. Return 1
  * for functions other than switching functions and user events, and if the state cannot be evaluated.
  */
-static int is_event_resolved_at(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+static int is_event_value_significant_at(
+    Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
@@ -188,7 +189,7 @@ static double find_earlier_event(Integrator *run, const Step *step, double first
             if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_event_ignored(run, step, k)
                 && !isfinite(get_bracket_begin(run, step, k).slope)
                     && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0
-                && is_event_resolved_at(run, step, first_fraction, k, p))
+                && is_event_value_significant_at(run, step, first_fraction, k, p))
                 earlier = k;
         if (earlier < 0)
             return first_fraction;
@@ -213,9 +214,10 @@ typedef struct {
 
 /*
  * Return whether an event function is negative somewhere in the step, and set *candidate to its bracket and the
- * estimates of its zero. Zeros of a gap after max_fraction may be omitted. A function that is negative at the beginning
- * is sampled for a return above zero; without one the event is at the beginning. Return 0 without dense output. Called
- * for each event function that may have a zero in the step.
+ * estimates of its zero. Zeros of a gap after max_fraction may be omitted. The bracket of a watched function begins
+ * where bracket_first_zeros() found it. A function that is negative at the beginning is evaluated at three inner points
+ * for a return above zero; without one the event is at the beginning. Return 0 without dense output. Called for each
+ * event function that may have a zero in the step.
  */
 static int find_event_candidate(Integrator *run, Step *step, int event, const Parameters *p, double max_fraction,
     Candidate *candidate)
@@ -225,15 +227,15 @@ static int find_event_candidate(Integrator *run, Step *step, int event, const Pa
     const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, event);
     const int candidates = is_gap ? bracket_gap_zero(run, step, event, p, max_fraction, &low, &end)
         : sampled ? bracket_force_zero(run, step, event, p, &low, &end) : 0;
-    const double high = sampled ? candidates * end.s : find_bracket_end(run, step, event, p, &value_high);
+    const double high = sampled ? candidates * end.s : find_negative_end_of_bracket(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
-    if (watched_index[event] >= 0 && step->from[watched_index[event]] > 0.0) {
-        const Sample from = evaluate_bracket_point(run, step, step->from[watched_index[event]], event, p);
-        if (from.f >= 0.0 || step->above[watched_index[event]] >= 0.0)
+    if (watched_index[event] >= 0 && step->bracket_begin[watched_index[event]] > 0.0) {
+        const Sample from = evaluate_bracket_point(run, step, step->bracket_begin[watched_index[event]], event, p);
+        if (from.f >= 0.0 || step->value_at_begin[watched_index[event]] >= 0.0)
             low = from;
     }
-    if (watched_index[event] >= 0 && step->above[watched_index[event]] >= 0.0) /* within its uncertainty */
+    if (watched_index[event] >= 0 && step->value_at_begin[watched_index[event]] >= 0.0) /* within its uncertainty */
         low.f = max_of(low.f, 0.0);
     for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* negative at the beginning: find a return */
         const Sample inner = evaluate_bracket_point(run, step, 0.25 * j * high, event, p);
@@ -266,11 +268,11 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
     *event = -1;
     evaluate_event_functions(&run->discrete, &step->rhs, at_end);
     for (int k = N_CLEARANCES; k < N_EVENT_FUNCTIONS; k++)
-        has_negative |= (step->lowest[k] < 0.0) | (at_end[k] < 0.0);
+        has_negative |= (step->min_event_value[k] < 0.0) | (at_end[k] < 0.0);
     const int only_gaps = !N_WATCHED && !N_FRICTIONS && !has_negative; /* all others are positive */
     for (int k = 0; k < (only_gaps ? N_CLEARANCES : N_EVENT_FUNCTIONS); k++) {
         const int is_positive = k >= N_CLEARANCES && watched_index[k] < 0 && !is_contact_force_function(run, k)
-            && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
+            && !(step->min_event_value[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate candidate;
         int i = n;
         if (is_positive || is_event_ignored(run, step, k)
@@ -349,7 +351,7 @@ static int evaluate_user_events_at(Integrator *run, const Step *step, double fra
             values);
     const int status = evaluate_state_at(run, step, fraction, p, y, dy, &rhs);
     if (!status)
-        evaluate_resolved_events(run, step->t + fraction * step->h, y, &rhs, p, values);
+        evaluate_significant_events(run, step->t + fraction * step->h, y, &rhs, p, values);
     return status;
 }
 
@@ -383,19 +385,20 @@ static inline int is_pole(Integrator *run, const Step *step, double fraction, in
 
 /*
  * Return the first fraction of a tried step at which an event ends it, and its number *event; 1 and -1 if there is
- * none. Negligible switching points are marked in step->passed first; if an event precedes the end, none is passed.
- * Also stores whether a user-defined event is a pole. Called for each accepted attempt, before the step is shortened to
- * the event.
+ * none. Negligible switching points are marked in step->is_ignored first. If an event precedes the end, the marks are
+ * cleared, because such a point may lie after the event, and the search is repeated. Long steps in contact are searched
+ * further (find_first_event_of_long_step()). Also stores whether a user-defined event is a pole. Called for each
+ * accepted attempt, before the step is shortened to the event.
  */
 static double find_first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
-    const int has_passed = pass_negligible_switches(run, step, p);
+    const int has_ignored = ignore_negligible_switches(run, step, p);
     bracket_first_zeros(run, step, p);
     double fraction = find_first_crossing(run, step, p, event);
-    if (*event >= 0 && has_passed) {
+    if (*event >= 0 && has_ignored) {
         /* the event ends the step: a passed switching point may lie after it */
         for (int k = 0; k < N_SWITCHES; k++)
-            step->passed[k] = 0;
+            step->is_ignored[k] = 0;
         fraction = find_first_crossing(run, step, p, event);
     }
     fraction = find_first_event_of_long_step(run, step, fraction, p, event);
@@ -408,9 +411,9 @@ static double find_first_event(Integrator *run, Step *step, const Parameters *p,
 static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.suppressed_switch = -1; }
 
 /*
- * Set the resolution of event times: 1e-12 s, less near the end of the run: at most 1e-11 of the time left (s). With
- * steps of fixed length it is at most 1e-8 of the step instead, so that a resumed run repeats the uninterrupted one.
- * Called when a run begins or resumes.
+ * Set the resolution of event times, roots.time_resolution: min(1e-12 s, 1e-11 time_left), where time_left is the time
+ * to the end of the run, s. With steps of fixed length h it is min(1e-12 s, 1e-8 h), so that a resumed run repeats the
+ * uninterrupted one. Called when a run begins or resumes.
  */
 static void set_time_resolution(Integrator *run, double time_left)
 {
@@ -435,19 +438,20 @@ static double compute_rate_jump(const Integrator *run, const double *dy_before)
  * Suppress a switching point in the next step (roots.suppressed_switch) if the motion crossed it twice within a
  * thousandth of the step length; otherwise end a suppression. An example is a journal at rest in its film. Called at
  * each change of branch. Both branches must meet there, or differ by rounding only (dy_before: rates of the previous
- * branch). The next step is limited to roots.monitor: 20 times the maximum of the time between the crossings, the
- * previous limit and 100 resolutions of time.
+ * branch). The next step is limited to roots.suppression_length: 20 times the maximum of the time between the
+ * crossings, the previous limit and 100 resolutions of time.
  */
 static void suppress_repeated_switch(Integrator *run, int switch_index, const double *dy_before)
 {
     const double elapsed = run->t - run->roots.t_crossed;
-    const double monitor = 20.0 * max_of(100.0 * run->roots.time_resolution, max_of(run->roots.monitor, elapsed));
+    const double suppression_length = 20.0
+        * max_of(100.0 * run->roots.time_resolution, max_of(run->roots.suppression_length, elapsed));
     const int is_repeated = run->roots.crossed == switch_index && elapsed < 1e-3 * run->control.h
         && (is_continuous_switch[switch_index]
             || (run->control.fixed <= 0.0
-                && compute_rate_jump(run, dy_before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
+                && compute_rate_jump(run, dy_before) * max_of(suppression_length, run->control.h) < MIN_RATE_JUMP_TOL));
     run->roots.suppressed_switch = is_repeated ? switch_index : -1;
-    run->roots.monitor = is_repeated ? monitor : 0.0;
+    run->roots.suppression_length = is_repeated ? suppression_length : 0.0;
     run->roots.crossed = switch_index;
     run->roots.t_crossed = run->t;
 }

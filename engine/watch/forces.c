@@ -53,16 +53,16 @@ static double compute_slip_tolerance(Integrator *run, int element, const Paramet
 
 /*
  * Return how far an event function may be below zero at the beginning of a step without an event. For a slip velocity
- * that leaves rest (at most AT_REST) it is the rounding or the error of the step, m/s; for all other functions 0. Used
- * as the allowance of bracket_force_zero().
+ * that leaves rest (at most MAX_STICK_SPEED) it is the rounding or the error of the step, m/s; for all other functions
+ * 0. Used as the allowance of bracket_force_zero().
  */
 static double compute_initial_allowance(Integrator *run, int event, const Parameters *p)
 {
 #if N_FRICTIONS
     const int i = event - N_CLEARANCES - N_SWITCHES;
     const double mode = i >= 0 ? run->discrete.mode[i] : 0.0, v = i >= 0 ? run->rhs.friction[i].v : 0.0;
-    if (mode != 0.0 && fabs(v) <= AT_REST && mode * run->rhs.friction[i].rate > 0.0)
-        return max_of(AT_REST, compute_slip_tolerance(run, i, p));
+    if (mode != 0.0 && fabs(v) <= MAX_STICK_SPEED && mode * run->rhs.friction[i].rate > 0.0)
+        return max_of(MAX_STICK_SPEED, compute_slip_tolerance(run, i, p));
 #endif
     return (void)run, (void)event, (void)p, 0.0;
 }
@@ -144,7 +144,7 @@ static int may_terms_oscillate_between_stages(Step *step, const Sample *samples,
 }
 
 /*
- * Return a bound of the second derivative of a function given by n samples: BEND_SAFETY times the largest second
+ * Return a bound of the second derivative of a function given by n samples: CURVATURE_SAFETY times the largest second
  * difference quotient; 0 for n < 3.
  */
 static double bound_second_derivative(const Sample *samples, int n)
@@ -153,7 +153,7 @@ static double bound_second_derivative(const Sample *samples, int n)
     for (int i = 1; i + 1 < n; i++) {
         const double left = (samples[i].f - samples[i - 1].f) / (samples[i].s - samples[i - 1].s);
         const double right = (samples[i + 1].f - samples[i].f) / (samples[i + 1].s - samples[i].s);
-        largest = max_of(largest, 2.0 * BEND_SAFETY * fabs(right - left) / (samples[i + 1].s - samples[i - 1].s));
+        largest = max_of(largest, 2.0 * CURVATURE_SAFETY * fabs(right - left) / (samples[i + 1].s - samples[i - 1].s));
     }
     return largest;
 }
@@ -161,9 +161,10 @@ static double bound_second_derivative(const Sample *samples, int n)
 /*
  * Return whether the stages of a step show that an event function has no zero. Between neighbours a and b it is at
  * least min(f_a, f_b) - B w^2/8, where B bounds its second derivative, and at least the smaller one where it is
- * monotone. Values above -allowance are not negative, until the function exceeds `allowance`. Stages of stiff methods,
- * or fewer than MIN_STAGES, decide for slip velocities only, by the range of the samples. Called before the dense
- * output is bisected.
+ * monotone. Until a sample exceeds `allowance`, values above -allowance are not negative (a force or slip that is just
+ * leaving zero); later the limit is 0. Stages of stiff methods, or fewer than MIN_STAGES, decide for slip velocities
+ * only, by the range of the samples. Return 0 also if terms of time alone may oscillate between the stages. Called
+ * before the dense output is bisected.
  */
 static int is_bounded_away_from_zero(const Integrator *run, Step *step, int event, double allowance,
     const Parameters *p)
@@ -181,15 +182,15 @@ static int is_bounded_away_from_zero(const Integrator *run, Step *step, int even
     if (step->method->stiff || n < MIN_STAGES) /* inaccurate or distant stages: for velocities only */
         return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != 0.0
             && smallest > largest - smallest;
-    const double bend = bound_second_derivative(samples, n);
+    const double curvature = bound_second_derivative(samples, n);
     for (int i = 1; i < n; i++) {
-        const double width = samples[i].s - samples[i - 1].s, deviation = bend * width * width;
+        const double width = samples[i].s - samples[i - 1].s, deviation = curvature * width * width;
         const int monotone = fabs(samples[i].f - samples[i - 1].f) > 0.5 * deviation;
         allowance = samples[i - 1].f > allowance ? 0.0 : allowance;
         if (!(min_of(samples[i - 1].f, samples[i].f) - (monotone ? 0.0 : 0.125 * deviation) > -allowance))
             return 0;
     }
-    return (!(allowance > 0.0) || samples[n - 1].f >= -AT_REST)
+    return (!(allowance > 0.0) || samples[n - 1].f >= -MAX_STICK_SPEED)
         && !may_terms_oscillate_between_stages(step, samples, n, p);
 }
 
@@ -209,10 +210,10 @@ static double evaluate_parabola(Sample begin, Sample middle, Sample end, double 
  */
 static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *steepest_slope)
 {
-    const double slope = 0.5 * (end.f - begin.f), bend = begin.f - 2.0 * middle.f + end.f, x = -slope / bend;
+    const double slope = 0.5 * (end.f - begin.f), curvature = begin.f - 2.0 * middle.f + end.f, x = -slope / curvature;
     const double minimum = min_of(begin.f, min_of(middle.f, end.f));
-    *steepest_slope = 2.0 * (slope + fabs(bend)) / (end.s - begin.s);
-    return bend > 0.0 && fabs(x) < 1.0 ? min_of(minimum, middle.f + 0.5 * slope * x) : minimum;
+    *steepest_slope = 2.0 * (slope + fabs(curvature)) / (end.s - begin.s);
+    return curvature > 0.0 && fabs(x) < 1.0 ? min_of(minimum, middle.f + 0.5 * slope * x) : minimum;
 }
 
 /*
@@ -277,5 +278,5 @@ static int bracket_force_zero(Integrator *run, Step *step, int event, const Para
     }
     *low = get_bracket_begin(run, step, event);
     *high = from; /* a velocity within its tolerance has reversed */
-    return allowance > 0.0 && from.f < -AT_REST;
+    return allowance > 0.0 && from.f < -MAX_STICK_SPEED;
 }

@@ -2,7 +2,7 @@
  * Search for contacts in a step: the first zero of a joint's gap or penetration, with a proof that none precedes it.
  * The event function is the gap of an open contact, or the penetration of a closed one.
  *
- * classify_gap_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest
+ * classify_gap_by_stages() decides most steps. The second derivative is bounded by CURVATURE_SAFETY times the largest
  * difference quotient of the rates of neighbouring stages. The dense output differs from the stages by at most
  * DENSE_ERROR tolerances. Otherwise find_first_gap_zero() bisects the dense output. On each part the event function is
  * the cubic Hermite polynomial of both ends within an error. That error is the one measured in the middle of the part
@@ -88,7 +88,7 @@ static double compute_dense_output_error(const Integrator *run, int joint, const
  */
 static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
 {
-    return compute_least_gap(step, joint, compute_event_value(&run->discrete, &run->rhs, joint),
+    return compute_gap_lower_bound(step, joint, compute_event_value(&run->discrete, &run->rhs, joint),
         compute_event_value(&run->discrete, &step->rhs, joint), run->rhs.clearance[joint].deltadot,
         step->rhs.clearance[joint].deltadot) > compute_dense_output_error(run, joint, p);
 }
@@ -120,7 +120,7 @@ static int classify_gap_by_stages(const Integrator *run, const Step *step, int j
     const double bound = compute_gap_event_threshold(p, joint),
         error = 16.0 * compute_dense_output_error(run, joint, p);
     double max_second_derivative = 0.0;
-    int falls = 0, first = 1;
+    int is_decreasing = 0, first = 1;
     while (first < n - 1 && samples[first].f >= -error)
         first++;
     *first_negative = samples[first].s;
@@ -131,17 +131,17 @@ static int classify_gap_by_stages(const Integrator *run, const Step *step, int j
         if (change > max_second_derivative * width)
             max_second_derivative = change / width;
     }
-    max_second_derivative *= BEND_SAFETY;
+    max_second_derivative *= CURVATURE_SAFETY;
     for (int k = 1; k < n; k++) {
         const Sample a = samples[k - 1], b = samples[k];
         const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, deviation = error * s * s * (1.0 - s) * (1.0 - s);
-        if (!falls && b.f >= 0.0 && is_above_parabolas(a, b, max_second_derivative, bound + deviation))
+        if (!is_decreasing && b.f >= 0.0 && is_above_parabolas(a, b, max_second_derivative, bound + deviation))
             continue;
         if (!(0.5 * (a.slope + b.slope + max_second_derivative * (b.s - a.s)) + 0.2 * error < 0.0))
             return UNKNOWN;
-        falls = 1;
+        is_decreasing = 1;
     }
-    return falls && samples[n - 1].f < 0.0 ? ONE_ZERO : NO_ZERO;
+    return is_decreasing && samples[n - 1].f < 0.0 ? ONE_ZERO : NO_ZERO;
 }
 
 /* Return the minimum of the cubic f + r u + c u^2 + d u^3 for u from 0 to 1/2. */

@@ -18,13 +18,13 @@ static void interpolate(const Integrator *run, const Step *step, double fraction
 
 /*
  * Compute the projected state y, its rates dy and the outputs rhs at a fraction of the step. The stored sample after
- * the last located zero (samples.beyond) is returned without evaluation. Residual slips of sticking friction are
- * removed. Return a status.
+ * the last located zero (samples.negative_fraction) is returned without evaluation. Residual slips of sticking friction
+ * are removed. Return a status.
  */
 static int evaluate_state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs)
 {
-    if (fraction == run->roots.samples.beyond) {
+    if (fraction == run->roots.samples.negative_fraction) {
         memcpy(y, run->roots.samples.y, sizeof run->roots.samples.y);
         memcpy(dy, run->roots.samples.dy, sizeof run->roots.samples.dy);
         *rhs = run->roots.samples.rhs;
@@ -64,7 +64,7 @@ static int evaluate_contacts_in_step(Integrator *run, const Step *step, double f
     RhsOutputs *rhs)
 {
     double y[N_Y];
-    if (fraction == run->roots.samples.beyond) {
+    if (fraction == run->roots.samples.negative_fraction) {
         *rhs = run->roots.samples.rhs;
         return 0;
     }
@@ -93,7 +93,7 @@ static double compute_event_function_slope(const Integrator *run, const Step *st
 static void discard_dense_samples(Integrator *run)
 {
     run->roots.samples.n = 0;
-    run->roots.samples.beyond = NAN;
+    run->roots.samples.negative_fraction = NAN;
 }
 
 /*
@@ -140,7 +140,7 @@ static int find_or_add_dense_sample(Integrator *run, const Step *step, double fr
         return index;
     index = add_dense_sample(run, step, fraction, &rhs, 0);
     if (event >= 0 && samples->event_function[index][event] < 0.0) {
-        samples->beyond = fraction;
+        samples->negative_fraction = fraction;
         memcpy(samples->y, y, sizeof y);
         memcpy(samples->dy, dy, sizeof dy);
         samples->rhs = rhs;

@@ -68,8 +68,9 @@ static int are_terms_monotone(double t, double h, double begin, double end, cons
 /*
  * Return a fraction between two neighbouring nodes at which a term of time acts and the step is not accurate; 0: none.
  * begin, end: the nodes; term_low, term_high: terms there; allowed_excess: of each term. The part with the largest
- * excess is bisected first, until half of that excess is certain. There is_accurate(context, ...) is called,
- * MAX_ACCURACY_TESTS times at most; then, and for monotone terms, 0 is returned.
+ * excess is bisected first, until half of that excess is certain, or the part is as small as allowed. There
+ * is_accurate(context, middle, is_certain) is called. Return 0 after MAX_ACCURACY_TESTS calls, if no part has an
+ * excess, and for monotone terms.
  */
 static double find_undersampled_fraction(double t, double h, double begin, double end, const Interval *term_low,
     const Interval *term_high,

@@ -20,7 +20,7 @@ typedef struct {
  * as of a velocity that a constraint holds at zero, neither end a step nor start a search.
  */
 typedef struct {
-    int known;
+    int is_known;
     double rounding[N_WATCHED], tolerance[N_WATCHED];
     double whole_lower[N_WATCHED]; /* lower bound of the function over the whole step */
 } EventUncertainties;
@@ -33,17 +33,17 @@ static void estimate_uncertainties(
     Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
 {
     double error[2 * N_X + 1], at_end[N_WATCHED];
-    if (uncertainties->known)
+    if (uncertainties->is_known)
         return;
-    uncertainties->known = 1;
+    uncertainties->is_known = 1;
     for (int k = 0; k < 2 * N_X; k++)
         error[k] = 1.0 / run->norm.weight[k];
-    estimate_uncertainty(run, step->t, run->y, p, uncertainties->rounding);
-    estimate_watched_errors(run, step->t, run->y, error, p, uncertainties->tolerance);
-    estimate_uncertainty(run, step->t + step->h, step->y, p, at_end);
+    estimate_rounding_uncertainty(run, step->t, run->y, p, uncertainties->rounding);
+    estimate_watched_function_errors(run, step->t, run->y, error, p, uncertainties->tolerance);
+    estimate_rounding_uncertainty(run, step->t + step->h, step->y, p, at_end);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainties->rounding[i] = min_of(uncertainties->rounding[i], at_end[i]);
-    estimate_watched_errors(run, step->t + step->h, step->y, error, p, at_end);
+    estimate_watched_function_errors(run, step->t + step->h, step->y, error, p, at_end);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainties->tolerance[i] = min_of(uncertainties->tolerance[i], at_end[i]);
 }
@@ -75,7 +75,7 @@ static int is_below_uncertainty(Integrator *run, const Step *step, double fracti
 {
     double y[N_Y], error[N_WATCHED];
     interpolate_projected_state(run, step, fraction, p, y);
-    estimate_uncertainty(run, step->t + fraction * step->h, y, p, error);
+    estimate_rounding_uncertainty(run, step->t + fraction * step->h, y, p, error);
     return fabs(value) <= error[index];
 }
 
@@ -199,7 +199,7 @@ typedef struct {
     const Parameters *p;
     DensePolynomial powers;
     double values_begin[N_WATCHED];
-    EventUncertainties uncertain;
+    EventUncertainties uncertainties;
 } WatchedStep;
 
 /*
@@ -215,16 +215,18 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
     const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
     int result = classify_zero(bounds, search->values_begin[index], *value_end, width, is_small);
     if (width == 1.0)
-        search->uncertain.whole_lower[index] = bounds.lo;
+        search->uncertainties.whole_lower[index] = bounds.lo;
     if (result > 0 && is_below_uncertainty(search->run, search->step, end, index, *value_end, search->p)) {
         *value_end = 0.0;
         result = classify_zero(bounds, search->values_begin[index], 0.0, width, is_small);
     }
     if (result < 0) {
-        estimate_uncertainties(search->run, search->step, &search->uncertain, search->p);
-        result = -!is_held_at_zero(&search->uncertain, index, bounds, search->values_begin[index], *value_end, width);
+        estimate_uncertainties(search->run, search->step, &search->uncertainties, search->p);
+        result =
+            -!is_held_at_zero(&search->uncertainties, index, bounds, search->values_begin[index], *value_end, width);
     }
-    return bounds.may_be_undefined && !is_small && event >= 0 && !search->run->events.no_number[event] ? -1 : result;
+    const int may_become_nan = bounds.may_be_undefined && event >= 0 && !search->run->events.is_nan_reported[event];
+    return may_become_nan && !is_small ? -1 : result;
 }
 
 /*
@@ -250,13 +252,13 @@ static int classify_event_functions(void *context, double begin, double end, int
         if (event >= 0 && isnan(values_end[i]))
             record_nan_event(run, event, step->t + end * step->h);
         if (result) {
-            step->from[i] = begin;
-            step->to[i] = end;
-            step->above[i] =
+            step->bracket_begin[i] = begin;
+            step->bracket_end[i] = end;
+            step->value_at_begin[i] =
                 search->values_begin[i] < 0.0
                         && is_below_uncertainty(run, step, begin, i, search->values_begin[i], search->p)
                     ? 0.0 : search->values_begin[i];
-            step->below[i] = values_end[i];
+            step->value_at_end[i] = values_end[i];
             has_zero = 1;
         }
     }
@@ -297,17 +299,17 @@ static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, Event
 
 #endif
 /*
- * Bracket the first zero of each watched event function along a tried step: step->from and step->to enclose it; both 0:
- * none. Also stores the values there, step->above and step->below. If bounds by the stages exclude zeros, or without
- * dense output, nothing is searched. Called by find_first_event().
+ * Bracket the first zero of each watched event function along a tried step: step->bracket_begin and step->bracket_end
+ * enclose it; both 0: none. Also stores the values there, step->value_at_begin and step->value_at_end. If bounds by the
+ * stages exclude zeros, or without dense output, nothing is searched. Called by find_first_event().
  */
 static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p)
 {
     WatchedStep search = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_WATCHED; i++)
-        step->from[i] = step->to[i] = 0.0;
+        step->bracket_begin[i] = step->bracket_end[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && are_zeros_excluded_by_stages(run, step, &search.uncertain, p))
+    if ((!step->method->stiff && are_zeros_excluded_by_stages(run, step, &search.uncertainties, p))
         || compute_dense_output(run, p, step))
         return;
     expand_dense_output(run, step, &search.powers);
@@ -324,13 +326,13 @@ static int is_step_unresolved(const Integrator *run, const Step *step, const Par
 }
 
 /*
- * Return the fraction of the step at which a watched function is first negative, the bracket end step->to that
+ * Return the fraction of the step at which a watched function is first negative, the bracket end step->bracket_end that
  * bracket_first_zeros() has found, and its value there in *value; 0: nowhere. index: of the watched function.
  */
 static double find_first_negative_sample(const Integrator *run, const Step *step, int index, const Parameters *p,
     double *value)
 {
     (void)run, (void)p;
-    *value = step->below[index];
-    return step->to[index];
+    *value = step->value_at_end[index];
+    return step->bracket_end[index];
 }

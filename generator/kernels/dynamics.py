@@ -234,7 +234,9 @@ def _append_rigid_contact_accelerations(
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
             outward = _compute_outward_acceleration(system, clearance, clearance.wall, solution)
-            builder.append_store(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
+            builder.append_store(
+                RHS["clearance"][index]["half_square_second_derivative"], outward, "at a wall delta'' itself"
+            )
         elif clearance.rigid:
             journal_acceleration, bearing_acceleration = (
                 system.compute_acceleration(point, solution) for point in (clearance.second, clearance.first)
@@ -243,7 +245,7 @@ def _append_rigid_contact_accelerations(
             value = sp.Add(
                 *(e[i] * (journal_acceleration[i] - bearing_acceleration[i]) + edot[i] ** 2 for i in range(2))
             )
-            builder.append_store(RHS["clearance"][index]["half_square_rate"], value, "e . e'' + e' . e'")
+            builder.append_store(RHS["clearance"][index]["half_square_second_derivative"], value, "e . e'' + e' . e'")
 
 
 def _compute_outward_acceleration(

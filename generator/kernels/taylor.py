@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from gudgeon.contract.boundary import TAYLOR_EFFORT, TAYLOR_STRICTNESS
+from gudgeon.contract.boundary import TAYLOR_ORDERS_PER_E_FOLD, TAYLOR_TOLERANCE_RATIO
 from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.notes import find_drives_with_jumps
 from gudgeon.generator.ir.kernels import KernelBuilder, remove_unused_locals
@@ -82,7 +82,7 @@ def _predict_tolerance(program: Program, series: Series) -> float:
     n_rhs, n_rows, tolerance = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
         rtol = 10.0**-exponent
-        order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
+        order = math.ceil(1.0 - TAYLOR_ORDERS_PER_E_FOLD * math.log(rtol / TAYLOR_TOLERANCE_RATIO))
         series_cost = (
             SERIES_STEP_COST
             + SERIES_CLOSURE_COST * n_rows

@@ -34,8 +34,8 @@ EARLY = Threshold("EARLY", 1e-5)
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
 # SINGULAR and VANISHING where a run may need larger ones: the discrete state has the values
 # (engine/motion/continuation.c).
-RUN_SINGULAR = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["least"])
-RUN_VANISHING = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
+RUN_SINGULAR = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["min_pivot"])
+RUN_VANISHING = Threshold(VANISHING.name, VANISHING, DISCRETE["min_pivot_size"])
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,10 @@
 from typing import Final
 
 AUDIT_FAILS: Final = 10.0
-SHALLOW: Final = 1e-13
-AT_REST: Final = 1e-9
-TAYLOR_EFFORT: Final = 0.7
-TAYLOR_STRICTNESS: Final = 10.0
+MIN_TOUCHING_PENETRATION: Final = 1e-13
+MAX_STICK_SPEED: Final = 1e-9
+TAYLOR_ORDERS_PER_E_FOLD: Final = 0.7
+TAYLOR_TOLERANCE_RATIO: Final = 10.0
 
 # enum Status
 AUDITED: Final = -15
@@ -32,10 +32,10 @@ BEGUN: Final = 1
 OVER: Final = 2
 
 # enum BatchResult
-ALL_OVER: Final = 0
-LISTS: Final = 1
-RUN_OVER: Final = 2
-GOES_ON: Final = 3
+BATCH_ENDED: Final = 0
+BUFFERS_FULL: Final = 1
+RUN_ENDED: Final = 2
+CALL_AGAIN: Final = 3
 
 # enum ContactCode
 CODE_FREE: Final = 0

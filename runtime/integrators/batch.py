@@ -22,12 +22,12 @@ from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equa
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.boundary import (
     AUDITED,
+    BUFFERS_FULL,
     ENDED,
-    LISTS,
     NEW,
     NOT_CLOSED,
     OVER,
-    RUN_OVER,
+    RUN_ENDED,
     STOPPED,
 )
 from gudgeon.errors import GudgeonError, SolverError
@@ -126,10 +126,10 @@ class Runs(StoredRuns):
         scale, least, size = adaptive.compute_tolerances_of_runs(compiled, x["p"], self.rtol)
         if isinstance(x, SingleRunArrays):
             x["t"][:], x["n_requested"][0] = times.t, times.count[0]
-            x["scale"][:], x["least"][:], x["size"][:] = scale, least, size
+            x["scale"][:], x["min_size"][:], x["size"][:] = scale, least, size
             struct = x.make_struct(compiled.ffi)
         else:
-            given = {"t": times.t, "n_requested": times.count, "scale": scale, "least": least, "size": size}
+            given = {"t": times.t, "n_requested": times.count, "scale": scale, "min_size": least, "size": size}
             names = ("p", "p_motion", "step")
             given |= {name: x[name] for name in names}
             self.arrays |= {name: np.ascontiguousarray(array) for name, array in given.items()}
@@ -148,7 +148,7 @@ class Runs(StoredRuns):
 
     def release_samples(self) -> None:
         """Release the samples of all runs and C's struct; called after `store_results` has stored the series."""
-        self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
+        self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "discrete_states", "state")}
         self.arrays.pop("a", None)
         self.struct, self.kinematic, self.store_results = None, None, None
 
@@ -165,7 +165,7 @@ class Runs(StoredRuns):
         x, nc = self.arrays, len(self.compiled.source.clearances)
         for i, start in enumerate(starts):
             x["start"][i] = np.concatenate([start.q, start.v])
-            x["remembered"][i, : self.compiled.n_memory] = start.memory
+            x["initial_discrete_states"][i, : self.compiled.n_memory] = start.memory
             if start.state is not None:
                 x["codes"][i, :nc] = start.state
                 self.resumed.add(i)
@@ -218,9 +218,9 @@ class Runs(StoredRuns):
         if self.has_shared_rows:
             return
         without_samples = x["done"] == 0
-        x["y"][without_samples], x["latched"][without_samples] = np.nan, np.nan
+        x["y"][without_samples], x["discrete_states"][without_samples] = np.nan, np.nan
         for i in np.flatnonzero(~without_samples & (x["done"] < self.times.max_count)).tolist():
-            x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
+            x["y"][i, x["done"][i] :], x["discrete_states"][i, x["done"][i] :] = np.nan, np.nan
 
     def _reset_unassembled_runs(self) -> list[int]:
         """Reset runs whose start C could not assemble to runs that have not begun, and return their indices."""
@@ -263,7 +263,7 @@ class Runs(StoredRuns):
             self.times.get_times(i),
             x["start"][i, :n],
             x["start"][i, n:],
-            x["remembered"][i, : self.compiled.n_memory],
+            x["initial_discrete_states"][i, : self.compiled.n_memory],
             float(x["step"][i]),
             state=x["codes"][i, :joints] if i in self.resumed else None,
             method=self.method,
@@ -379,17 +379,17 @@ class Runs(StoredRuns):
         run = compiled.pointer(storage, "void *")
         while current[0] < end:  # results of begun runs are fetched even if the batch was cancelled
             status = compiled.lib.gudgeon_ensemble(self.struct, run, current, end)
-            if status in (LISTS, RUN_OVER):
-                self.fetch_contacts_and_events(int(current[0]), run, status == RUN_OVER)
+            if status in (BUFFERS_FULL, RUN_ENDED):
+                self.fetch_contacts_and_events(int(current[0]), run, status == RUN_ENDED)
                 if step_log:
                     step_log.observer = self.observers[int(current[0])]
                     step_log.flush_rows(run)
-            current[0] += status == RUN_OVER
+            current[0] += status == RUN_ENDED
 
     def _build_error(self, i: int) -> GudgeonError:
         """Build the error that ended run i in C, from its status and the values that C stored."""
         if self.arrays["status"][i] == AUDITED:
             return build_audit_error(self.build_findings(i))
-        names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
+        names = "status", "t_last", "last", "peaks", "p_motion", "step", "time_gain", "monitored_steps", "ended"
         stored = {name: self.arrays[name][i] for name in names}
         return build_run_error(self.compiled, self.method, stored, float(self.times.get_times(i)[-1]))

@@ -14,10 +14,10 @@ from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.assembly.rank import find_nearly_dependent_equations
 from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.boundary import (
-    AT_REST,
     CHATTERING,
     FRICTION_INCONSISTENT,
     LOST,
+    MAX_STICK_SPEED,
     NOT_FINITE,
     NOT_FOUND,
     OUTSIDE,
@@ -173,7 +173,7 @@ def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
             t,
         )
     source = compiled.source
-    used = f"  dry_friction sticks at a slip below {AT_REST:g} m/s: speeds that small are not resolved"
+    used = f"  dry_friction sticks at a slip below {MAX_STICK_SPEED:g} m/s: speeds that small are not resolved"
     advice = [used] if source.frictions else []
     if _format_forces_with_switching_points(source) or not advice:
         advice.append(f"  {JUMPS}")
@@ -301,17 +301,17 @@ def _format_forces_with_switching_points(source: KernelSource) -> str:
 def _build_stalled_error(compiled: CompiledModel, values: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
     """Return the error of a run to t_end (s) that no longer advances, from the values that C has stored.
 
-    `values` contains t_last, p_motion, the advance `gained` (s) of the last steps, and in `paced` their number and
-    whether they became shorter. `ended` counts the steps that ended at contacts, switching points, frictions and
-    events. `e_max` (n_clearances,): largest eccentricities (m).
+    `values` contains t_last, p_motion, the advance `time_gain` (s) of the last steps, and in `monitored_steps` their
+    number and whether they became shorter. `ended` counts the steps that ended at contacts, switching points, frictions
+    and events. `e_max` (n_clearances,): largest eccentricities (m).
     """
     t, (steps, has_shortened_steps), ended, p = (
         float(values["t_last"]),
-        values["paced"].tolist(),
+        values["monitored_steps"].tolist(),
         values["ended"],
         values["p_motion"],
     )
-    progress = RunProgress(t, t_end - t, float(values["gained"]), steps, bool(has_shortened_steps))
+    progress = RunProgress(t, t_end - t, float(values["time_gain"]), steps, bool(has_shortened_steps))
     if not progress.is_slowing:
         return build_too_slow_error(progress)
     # a drive that moves this far in such a short step is the cause of the short steps

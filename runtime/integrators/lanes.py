@@ -19,7 +19,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
+from gudgeon.contract.boundary import BATCH_ENDED, BUFFERS_FULL, NEW, NOT_CLOSED, OVER
 from gudgeon.contract.methods import IN_LANES, KINEMATIC
 from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import find_memory_address, make_pointer
@@ -78,9 +78,9 @@ class Lanes:
         observers, one per lane. If the batch is stopped, begun runs are ended and stored one by one.
         """
         arguments, rows, run_of_lane = self._build_arguments(runs, storages)
-        free_rows, unstored, status = [*range(first_row, first_row + runs.n_rows_per_thread)], list[int](), LISTS
+        free_rows, unstored, status = [*range(first_row, first_row + runs.n_rows_per_thread)], list[int](), BUFFERS_FULL
         empty_lanes = [*range(len(rows))]
-        while status != ALL_OVER and not runs.is_stopping:
+        while status != BATCH_ENDED and not runs.is_stopping:
             for k in empty_lanes:
                 if (i := next(waiting_runs, NO_RUN)) != NO_RUN:
                     run_of_lane[k] = i
@@ -89,7 +89,7 @@ class Lanes:
             before = self.ffi.unpack(run_of_lane, len(rows))
             status = self.lib.gudgeon_lanes(*arguments, run_of_lane)
             empty_lanes = [k for k, i in enumerate(self.ffi.unpack(run_of_lane, len(rows))) if i == NO_RUN]
-            for k in empty_lanes if status != LISTS else range(len(rows)):
+            for k in empty_lanes if status != BUFFERS_FULL else range(len(rows)):
                 if before[k] != NO_RUN:
                     _fetch_results(runs, before[k], rows[k], step_logs[k] if step_logs else None)
             unstored += [before[k] for k in empty_lanes if before[k] != NO_RUN]
@@ -231,7 +231,7 @@ def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None
     if runs.arrays["status"][i] == NOT_CLOSED:
         return
     over = bool(runs.arrays["phase"][i] == OVER)
-    if step_log and (over or runs.compiled.lib.gudgeon_run_has_full_lists(run)):
+    if step_log and (over or runs.compiled.lib.gudgeon_run_has_full_buffers(run)):
         step_log.observer = runs.observers[i]
         step_log.flush_rows(run)
     runs.fetch_contacts_and_events(i, run, over)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.assembly.start import assemble_start
-from gudgeon.contract.boundary import LISTS, NEW, NOT_CLOSED, RUN_OVER, STOPPED
+from gudgeon.contract.boundary import BUFFERS_FULL, NEW, NOT_CLOSED, RUN_ENDED, STOPPED
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.stored import Contacts
@@ -48,7 +48,7 @@ class ReusableRun(Runs):
         self._integrator = self.compiled.pointer(self._storage, "void *", True)
         self._current = self.compiled.ffi.new("long *")
         self._poll = CancellationPoll(self.compiled, self.compiled.lib.switch_library_if_ready)
-        self.struct.ask, self.struct.caller, self.struct.every = self._poll.c_arguments
+        self.struct.is_stop_requested, self.struct.context, self.struct.poll_interval = self._poll.c_arguments
         self._begun_row, self._has_guessed_points = 0, any(x.count(".") > 1 for x in columns.source.start_guess)
         self._tolerance_keys: list[bytes] = [b""] * N_ROWS
         self._phase, self._done, self._checked, self._status = (
@@ -71,7 +71,7 @@ class ReusableRun(Runs):
             return True
         self._tolerance_keys[k] = b""
         source, x, p = self.compiled.source, self.arrays, self.columns.p[k]
-        x["scale"][k], x["least"][k], size = adaptive.compute_tolerances_of_values(source, p.tolist(), self.rtol)
+        x["scale"][k], x["min_size"][k], size = adaptive.compute_tolerances_of_values(source, p.tolist(), self.rtol)
         if is_clearance_unresolved(source, p, size):
             return False
         x["size"][k] = size
@@ -109,9 +109,9 @@ class ReusableRun(Runs):
         while current[0] == k:
             result = lib.gudgeon_ensemble(self.struct, self._integrator, current, k + 1)
             self._poll.raise_stored(False)
-            if result == RUN_OVER:
+            if result == RUN_ENDED:
                 break
-            if result == LISTS:
+            if result == BUFFERS_FULL:
                 self._discard_lists(k)
         status: int = self._status.item(k)
         if status == STOPPED:

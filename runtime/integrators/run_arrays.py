@@ -124,7 +124,7 @@ def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
         "start": (np.float64, (n, 2 * n_coordinates), np.nan),
         "started": (np.uint8, (n,), 0),
         "phase": (np.uint8, (n,), 0),
-        "remembered": (np.float64, (n, n_memory), np.nan),
+        "initial_discrete_states": (np.float64, (n, n_memory), np.nan),
         "codes": (np.int8, (n, n_clearances), 0),
         "done": (np.int_, (n,), 0),
         "checked": (np.int_, (n,), 0),
@@ -135,14 +135,14 @@ def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
         "counts": (np.int_, (n, N_COUNTS), 0),
         "residuals": (np.float64, (n, N_RESIDUALS), np.nan),
         "peaks": (np.float64, (n, n_clearances, N_PEAK), np.nan),
-        "audited": (np.float64, (n, N_CHECKS), -1),
-        "audited_t": (np.float64, (n, N_CHECKS), 0),
-        "audited_where": (np.intc, (n, N_CHECKS), -1),
-        "gained": (np.float64, (n,), 0),
-        "paced": (np.int_, (n, 2), 0),
+        "audit_values": (np.float64, (n, N_CHECKS), -1),
+        "audit_times": (np.float64, (n, N_CHECKS), 0),
+        "audit_locations": (np.intc, (n, N_CHECKS), -1),
+        "time_gain": (np.float64, (n,), 0),
+        "monitored_steps": (np.int_, (n, 2), 0),
         "ended": (np.int_, (n, N_STEP_ENDS), 0),
         "sample_block": (np.int_, (n,), 0),
-        "traced": (np.int_, (n,), 0),
+        "n_envelope_rows": (np.int_, (n,), 0),
         "ending": (np.intc, (1,), 0),
     }
 
@@ -159,7 +159,7 @@ def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str
         "p_motion": (np.float64, (1, sizes.n_p), 0),
         "step": (np.float64, (1,), 0),
         "scale": (np.float64, (1, max(2 * sizes.n_integrated, 1)), 0),
-        "least": (np.float64, (1, 2), 0),
+        "min_size": (np.float64, (1, 2), 0),
         "size": (np.float64, (1,), 0),
         "n_requested": (np.int_, (1,), N),
     }
@@ -167,7 +167,7 @@ def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str
         "state": (np.int8, (1, N, max(sizes.n_clearances, 1)), 0),
         "t": (np.float64, (N,), 0),
         "y": (np.float64, (1, N, 2 * sizes.n_coordinates + N_WORK), 0),
-        "latched": (np.float64, (1, N, max(sizes.n_memory, 1)), 0),
+        "discrete_states": (np.float64, (1, N, max(sizes.n_memory, 1)), 0),
     }
 
 

@@ -12,7 +12,7 @@ from weakref import ref
 
 import numpy as np
 
-from gudgeon.contract.boundary import BEGUN, ENDED, LISTS, RUN_OVER
+from gudgeon.contract.boundary import BEGUN, BUFFERS_FULL, ENDED, RUN_ENDED
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.batch import PythonLoop, Runs
 from gudgeon.integrators.run_arrays import SingleRunArrays
@@ -55,7 +55,7 @@ class SingleRun(Runs):
         self._current = compiled.ffi.new("long *")
         this = ref(self)
         self._cancellation = CancellationPoll(compiled, lambda: this()._poll_and_report_progress())  # type: ignore[union-attr]
-        self.struct.ask, self.struct.caller, self.struct.every = self._cancellation.c_arguments
+        self.struct.is_stop_requested, self.struct.context, self.struct.poll_interval = self._cancellation.c_arguments
         if compiled.source.clearances:
             self.allocate_envelope()
         self._problem: Problem | None = None
@@ -75,13 +75,13 @@ class SingleRun(Runs):
         is_given = problem.method == "rk4" or problem.p_motion is None
         x["p_motion"][0] = problem.p if is_given else problem.p_motion
         x["t_last"][0] = problem.t[0]
-        x["scale"][:], x["least"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
+        x["scale"][:], x["min_size"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
             compiled, problem.p[None], self.rtol
         )
         start = x["start"][0]
         start[:n], start[n:], x["started"][0] = problem.q, problem.v, 1
         if compiled.n_memory:
-            x["remembered"][0] = problem.memory
+            x["initial_discrete_states"][0] = problem.memory
         if problem.state is not None and len(problem.state):
             x["codes"][0] = problem.state
         self._problem = problem
@@ -128,7 +128,7 @@ class SingleRun(Runs):
         if not self.interrupted and x["status"].item(0) not in (0, ENDED):
             self.failures[0] = self._build_error(0)
         if not x["done"].item(0):  # the start becomes the only sample
-            rows = x["y"][0], x["latched"][0], x["state"][0]
+            rows = x["y"][0], x["discrete_states"][0], x["state"][0]
             to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
             compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
             x["done"][0] = 1
@@ -142,12 +142,12 @@ class SingleRun(Runs):
         current[0] = 0
         while not current[0]:
             status = integrate(self.struct, run, current, 1)
-            if status in (LISTS, RUN_OVER):
-                self.fetch_contacts_and_events(0, run, status == RUN_OVER)
+            if status in (BUFFERS_FULL, RUN_ENDED):
+                self.fetch_contacts_and_events(0, run, status == RUN_ENDED)
                 if step_log:
                     step_log.observer = self.observers[0]
                     step_log.flush_rows(run)
-                current[0] = status == RUN_OVER
+                current[0] = status == RUN_ENDED
             poll()
 
     def _poll(self) -> None:

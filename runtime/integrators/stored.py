@@ -184,7 +184,7 @@ class StoredRuns:
                 "p_motion": p_motion,
                 "step": step,
                 "y": np.empty((n_rows, N, 2 * compiled.n + N_WORK)),
-                "latched": np.empty((n_rows, N, max(compiled.n_memory, 1))),
+                "discrete_states": np.empty((n_rows, N, max(compiled.n_memory, 1))),
                 "state": np.zeros((n_rows, N, max(nc, 1)), np.int8),
             }
             self.arrays["sample_block"][:] = np.arange(n) % n_rows
@@ -202,8 +202,11 @@ class StoredRuns:
     def allocate_envelope(self) -> None:
         """Allocate the envelope of forces and paths, and register it with C, so that new runs record it for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
-        x["trace"] = np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints)))
-        self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], is_written=True), TRACE_ROWS
+        x["envelope"] = np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints)))
+        self.struct.envelope, self.struct.envelope_capacity = (
+            self.compiled.pointer(x["envelope"], is_written=True),
+            TRACE_ROWS,
+        )
 
     def _join_contacts(self) -> None:
         """Join the contacts of all runs to one array sorted by run and onset, after all runs have ended.
@@ -231,7 +234,7 @@ class StoredRuns:
             (slice(2 * n, None), trajectory.work),
         ):
             x["y"][k, :N, columns] = values
-        x["latched"][k, :N, : self.compiled.n_memory] = trajectory.memory
+        x["discrete_states"][k, :N, : self.compiled.n_memory] = trajectory.memory
         x["state"][k, :N, : trajectory.state.shape[1]] = trajectory.state
         if trajectory.a is not None:
             x["a"][k, :N] = trajectory.a
@@ -315,7 +318,7 @@ class StoredRuns:
         """Return the samples of run i as `get_samples`, as views of `arrays`, which may be a copy of the arrays."""
         compiled, k, t = self.compiled, self.arrays["sample_block"].item(i), self.get_reached_times(i)
         N, joints = len(t), len(compiled.source.clearances)
-        memory, state = arrays["latched"][k, :N, : compiled.n_memory], arrays["state"][k, :N, :joints]
+        memory, state = arrays["discrete_states"][k, :N, : compiled.n_memory], arrays["state"][k, :N, :joints]
         return t, arrays["y"][k, :N], memory, state
 
     def get_accelerations(self, i: int) -> Array | None:
@@ -365,9 +368,9 @@ class StoredRuns:
             "seconds": x["seconds"].item(i),
             "change_points": self._get_change_points(i),
             "size": math.nan if a is not None else x["size"].item(i),
-            "may_fail_audit": driven or b"\0" in (x["audited"][i] <= AUDIT_FAILS).tobytes(),
+            "may_fail_audit": driven or b"\0" in (x["audit_values"][i] <= AUDIT_FAILS).tobytes(),
         }
-        envelope = x["trace"][i, : x["traced"].item(i)].copy() if "trace" in x else None
+        envelope = x["envelope"][i, : x["n_envelope_rows"].item(i)].copy() if "envelope" in x else None
         events = self._get_events(i) if driven or i in self.events else None
         later = _TrajectoryParts(self.compiled, kept, i, driven, a is None, events, envelope)
         if self.n > 1:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.boundary import SHALLOW
+from gudgeon.contract.boundary import MIN_TOUCHING_PENETRATION
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
@@ -24,7 +24,7 @@ from gudgeon.model.contours import compute_corner_approach, find_contour, interp
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-DEPTH_TOL = 1e-9  # penetration outside a contact that counts as rounding, over the clearance; at least SHALLOW (m)
+DEPTH_TOL = 1e-9  # penetration without contact that is rounding, over the clearance; >= MIN_TOUCHING_PENETRATION (m)
 FORCE_TOL = 1e-12  # force outside a contact that counts as rounding, over the joint's largest force
 TIME_TOL = 1e-11  # widening of the interval of a contact, over the duration of the run
 PULL_TOL = 1e-6  # tensile force of a rigid contact that counts as rounding, over the largest force
@@ -108,11 +108,11 @@ def check_contact_samples(run: Result, run_with_peaks: Result | None = None) -> 
             continue
         force = np.full(len(run.t), np.nan) if run.compiled is None or joint.film else run[f"{joint.name}.F"]
         is_free = ~_find_samples_in_contact(run, k)
-        depth_limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
+        depth_limit = max(DEPTH_TOL * float(run.p[joint.clearance]), MIN_TOUCHING_PENETRATION)
         faults += _find_sample_faults(
             run, joint, "penetration", is_free & (penetration[:, k] > depth_limit), penetration[:, k], force
         )
-        is_touching = is_free & (np.abs(penetration[:, k]) <= SHALLOW)
+        is_touching = is_free & (np.abs(penetration[:, k]) <= MIN_TOUCHING_PENETRATION)
         carries_force = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & ~is_touching
         faults += _find_sample_faults(
             run, joint, "force", is_free & (penetration[:, k] <= depth_limit) & carries_force, penetration[:, k], force
@@ -163,7 +163,7 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, max_touching_fo
     """Yield a fault for each peak over all steps that exceeds the force of every listed contact of joint k.
 
     The excess must be above PEAK_TOL, or PEAK_TOL_FIXED for a fixed step. Joints with a film and rigid guides are
-    skipped. `max_touching_force` (N) is the largest force of samples with |penetration| up to SHALLOW.
+    skipped. `max_touching_force` (N) is the largest force of samples with |penetration| up to MIN_TOUCHING_PENETRATION.
     """
     if joint.film or (joint.is_corner and joint.joint in run.source.rigid):
         return

@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.audit import LEVELS, Finding
 from gudgeon.contract.boundary import AUDIT_FAILS as FAILS
-from gudgeon.contract.boundary import PEAK_F, SHALLOW, CLEARANCE_delta, CLEARANCE_Fx, CLEARANCE_Fy, PEAK_t
+from gudgeon.contract.boundary import (
+    MIN_TOUCHING_PENETRATION,
+    PEAK_F,
+    CLEARANCE_delta,
+    CLEARANCE_Fx,
+    CLEARANCE_Fy,
+    PEAK_t,
+)
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
@@ -121,7 +128,7 @@ class SampleAudit:
             clearance, memory = clearance[:, self.joints], memory[:, self.joints]
         force = np.hypot(clearance[:, :, CLEARANCE_Fx], clearance[:, :, CLEARANCE_Fy])
         is_free = np.isnan(memory[:, : len(self.joints)])
-        touches = is_free & (np.abs(clearance[:, :, CLEARANCE_delta]) <= SHALLOW)
+        touches = is_free & (np.abs(clearance[:, :, CLEARANCE_delta]) <= MIN_TOUCHING_PENETRATION)
         free_force = np.where(is_free & ~touches, force, 0.0)
         touching = np.where(touches, force, 0.0).max(axis=0).tolist()
         worst, largest = free_force.argmax(axis=0).tolist(), force.max(axis=0).tolist()
@@ -327,7 +334,8 @@ class _ContactForces:
     """Hold the largest contact forces (N) of a joint at the samples so far; NaN once one of them is NaN.
 
     `free`: at samples outside contacts, where the force must be zero; `t_free`: time (s) of the first such largest
-    force. `touching`: at samples outside contacts whose penetration is zero within SHALLOW. `largest`: at all samples.
+    force. `touching`: at samples outside contacts whose penetration is zero within MIN_TOUCHING_PENETRATION.
+    `largest`: at all samples.
     """
 
     def __init__(self) -> None:

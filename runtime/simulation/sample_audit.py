@@ -36,7 +36,7 @@ class ReusableSampleAudit:
         self._errors = np.zeros((len(SAMPLE_POSITIONS), len(LIMITS)))
         self._errors_pointer = pointer(self._errors, is_written=True)
         self._t = pointer(run.times.t)
-        self._rows = [(pointer(x["y"][k]), pointer(x["latched"][k]), pointer(x["p"][k])) for k in range(N_ROWS)]
+        self._rows = [(pointer(x["y"][k]), pointer(x["discrete_states"][k]), pointer(x["p"][k])) for k in range(N_ROWS)]
         # by row, number of samples, and whether the run is short
         self._arguments: dict[tuple[int, int, bool], list[tuple[Arguments, Any]]] = {}
 

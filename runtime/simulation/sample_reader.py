@@ -87,7 +87,7 @@ class _ReusableSamples:
         compiled, x, n = run.compiled, run.arrays, run.compiled.n
         y, pointer = x["y"][k], compiled.pointer
         joints = len(compiled.source.clearances)
-        memory, state = x["latched"][k][:, : compiled.n_memory], x["state"][k][:, :joints]
+        memory, state = x["discrete_states"][k][:, : compiled.n_memory], x["state"][k][:, :joints]
         self.result = make_evaluated_samples(
             compiled.source,
             compiled,
@@ -109,7 +109,7 @@ class _ReusableSamples:
             pointer(array, is_written=True) if array.size else compiled.ffi.NULL
             for array in vars(self.evaluation).values()
         ]
-        inputs = [pointer(array) for array in (run.times.t, *self._copies, x["latched"][k])]
+        inputs = [pointer(array) for array in (run.times.t, *self._copies, x["discrete_states"][k])]
         self._arguments = (len(y), *inputs, pointer(x["p"][k]), *results, compiled.ffi.new("long *"))
 
     def evaluate(self) -> bool:

@@ -74,7 +74,8 @@ class Stepper:
         self._reader = SampleReader(self._run, setup.series, 1)
         self._sample_audit = ReusableSampleAudit(self._run, is_resumed=True)
         self._arrays = {
-            name: self._run.arrays[name][0] for name in ("start", "y", "remembered", "latched", "codes", "state")
+            name: self._run.arrays[name][0]
+            for name in ("start", "y", "initial_discrete_states", "discrete_states", "codes", "state")
         }
         self._phi, n = np.zeros(len(setup.scene.source.start_rows)), self._compiled.n
         self._q = self._arrays["start"][:n]
@@ -114,7 +115,12 @@ class Stepper:
             return self._state
         source, n, x = self._setup.scene.source, self._compiled.n, self._arrays
         given = read_given_parameters(source, self._setup.get_parameters(self._x))
-        motion = self._q, x["start"][n:], x["codes"][: len(source.clearances)], x["remembered"][: source.n_memory]
+        motion = (
+            self._q,
+            x["start"][n:],
+            x["codes"][: len(source.clearances)],
+            x["initial_discrete_states"][: source.n_memory],
+        )
         return make_state(source, *given, self._t, *motion)
 
     def reset(self, inputs: ArrayLike | None = None, *, start: State | None = None) -> Array:
@@ -136,7 +142,7 @@ class Stepper:
                     check_journal_positions(compiled, p)
                 assembled = assemble_start(compiled, p)
                 self._q[:], arrays["start"][n:], self._t = assembled.q, assembled.v, 0.0
-                arrays["remembered"][:], arrays["codes"][:] = np.nan, 0
+                arrays["initial_discrete_states"][:], arrays["codes"][:] = np.nan, 0
             else:
                 self._set_state(start, x)
             values = self._integrate(self._t, 1, x)
@@ -223,7 +229,10 @@ class Stepper:
             )
         check_resumed_state(self._compiled, state, p)
         self._q[:], arrays["start"][n:], self._t = state.q, state.v, state.t
-        arrays["remembered"][: len(state.memory)], arrays["codes"][: len(state.state)] = state.memory, state.state
+        arrays["initial_discrete_states"][: len(state.memory)], arrays["codes"][: len(state.state)] = (
+            state.memory,
+            state.state,
+        )
 
     def _integrate(self, t: float, n_samples: int, x: Array) -> Array:
         """Integrate to t (s) with inputs x, make the end the new state, and return the series there.
@@ -244,7 +253,10 @@ class Stepper:
         values, last = self._reader.read_row(0)[:, 0], run.arrays["done"].item(0) - 1
         self._is_reset = False  # an interrupt in the next lines would leave an inconsistent state
         arrays["start"][:] = arrays["y"][last, : 2 * self._compiled.n]
-        arrays["remembered"][:], arrays["codes"][:] = arrays["latched"][last], arrays["state"][last]
+        arrays["initial_discrete_states"][:], arrays["codes"][:] = (
+            arrays["discrete_states"][last],
+            arrays["state"][last],
+        )
         self.ended = status == ENDED
         self._t = float(run.arrays["t_last"][0]) if self.ended else t
         self._is_reset = True

@@ -40,7 +40,7 @@ class ExerciseData:
     run: Result  # it ends at t, with every digit
     units: Array  # (2n,) value of the last printed digit of q and v
 
-    def estimate_uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
+    def estimate_rounding_uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
         """Return a bound of the change of function(q, v) by the rounding of the printed state, by error propagation.
 
         Changes by half a unit of the last digit of each entry of q and v are added in magnitude. The result has the

@@ -132,7 +132,7 @@ def _make_jacobian_question(subject: Subject) -> Question:
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    errors = drawn.estimate_uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
+    errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
     column_of = {q: k for k, q in enumerate(model.q)}
     numbers, rows, below = dict[str, float](), [], list[Block]()
     for k, row in subject.selected_rows:
@@ -177,7 +177,7 @@ def _make_gamma_question(subject: Subject) -> Question:
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    errors = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     scale = float(np.abs(values).max())
     numbers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
     for k, row in subject.selected_rows:
@@ -372,7 +372,7 @@ def _make_acceleration_question(subject: Subject) -> Question:
     signs = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale = float(np.abs(gamma).max())
-    errors = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(

@@ -150,7 +150,7 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
             "TreeState at;\n    if (solve_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
         )
         rescue = "reduce_accelerations(t, q, v, all_a, p, rescued);"
-        has_rescue = "gudgeon_reduced_rescue" in message
+        has_rescue = "gudgeon_absolute_fallback" in message
         text += BOTH % (seat, state, state, rescue if has_rescue else "(void)rescued;")
         message += MESSAGES
     (folder / "library.c").write_text(text, encoding="utf-8")
@@ -232,7 +232,7 @@ def _check(
             for b, other in zip(found, zip(*moved, strict=True), strict=True)
         ]
     _agree("events", of_tree, of_all, slack[4])
-    if hasattr(compiled.lib, "gudgeon_reduced_rescue"):
+    if hasattr(compiled.lib, "gudgeon_absolute_fallback"):
         size = np.max(abs(tree), initial=1.0)
         _agree("accelerations", tree[:-1] / size, rescued[:-1] / size, np.full(1, np.max(slack[0]) / size + 1e-7))
     else:

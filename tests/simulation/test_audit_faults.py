@@ -101,7 +101,7 @@ def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
     """Fault 07: velocities that stick are not put at rest and have no uncertainty: changes of their sign are events."""
     right = loader(tmp_path)(STUCK)
     assert not reported(right, 2.5, method=method)
-    known = "    estimate_watched_errors(run, t, y, error, p, uncertainty);\n"
+    known = "    estimate_watched_function_errors(run, t, y, error, p, uncertainty);\n"
     exact = "    for (int i = 0; i < N_WATCHED; i++)\n        uncertainty[i] = 0.0;\n"
     drifts = ("engine/run/slips.c", "fabs(v) <= MIN_SLIP", "fabs(v) <= INFINITY")
     wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact), drifts)

@@ -334,5 +334,5 @@ def test_tolerances_are_those_of_simulate(mechanism: str, scene: str, names: tup
         p = run.columns.p[1]
         expected = compute_tolerances(sim.compiled, p, 1e-7)
         assert run.arrays["scale"][1].tobytes() == expected[0].tobytes()
-        assert run.arrays["least"][1].tobytes() == expected[1].tobytes()
+        assert run.arrays["min_size"][1].tobytes() == expected[1].tobytes()
         assert run.arrays["size"][1] == compute_mechanism_sizes(sim.source, p)

@@ -419,7 +419,7 @@ def _check_uncertainty(simulation: Simulation, drawn: ExerciseData, seed: int) -
     def gamma(q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return simulation.compiled.gamma(drawn.t, q, v, drawn.p)
 
-    off, n, rng = drawn.estimate_uncertainty(gamma), len(drawn.q), np.random.default_rng(seed)
+    off, n, rng = drawn.estimate_rounding_uncertainty(gamma), len(drawn.q), np.random.default_rng(seed)
     exact, both = gamma(drawn.q, drawn.v), np.concatenate([drawn.q, drawn.v])
     for _ in range(20):
         other = both + drawn.units * rng.uniform(-0.5, 0.5, 2 * n)

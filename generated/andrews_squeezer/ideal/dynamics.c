@@ -399,11 +399,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double pivot_E3_x_E3_y_ = l_E3_y_BDE_theta_*w_E3_x_BDE_theta_ + l_E3_y_FE_theta_*w_E3_x_FE_theta_
         + l_E3_y_OF_theta_*w_E3_x_OF_theta_;
     const double determinant_E3_x_E3_y_ = -(pivot_E3_x_E3_y_ * pivot_E3_x_E3_y_) + scale_E3_x_*scale_E3_y_;
-    if (!(scale_E3_x_ > discrete->least * size_E3_x_)) {
+    if (!(scale_E3_x_ > discrete->min_pivot * size_E3_x_)) {
         pivot = 15;
         goto dependent;
     }
-    if (!(determinant_E3_x_E3_y_ > discrete->least * size_E3_y_ * scale_E3_x_)) {
+    if (!(determinant_E3_x_E3_y_ > discrete->min_pivot * size_E3_y_ * scale_E3_x_)) {
         pivot = 16;
         goto dependent;
     }
@@ -439,11 +439,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         + l_E4_y_E3_y_*w_E4_x_E3_y_ + l_E4_y_EG_theta_*w_E4_x_EG_theta_ + l_E4_y_FE_theta_*w_E4_x_FE_theta_
         + l_E4_y_OF_theta_*w_E4_x_OF_theta_;
     const double determinant_E4_x_E4_y_ = pivot_E4_x_*pivot_E4_y_ - (pivot_E4_x_E4_y_ * pivot_E4_x_E4_y_);
-    if (!(pivot_E4_x_ > discrete->least * size_E4_x_)) {
+    if (!(pivot_E4_x_ > discrete->min_pivot * size_E4_x_)) {
         pivot = 17;
         goto dependent;
     }
-    if (!(determinant_E4_x_E4_y_ > discrete->least * size_E4_y_ * pivot_E4_x_)) {
+    if (!(determinant_E4_x_E4_y_ > discrete->min_pivot * size_E4_y_ * pivot_E4_x_)) {
         pivot = 18;
         goto dependent;
     }
@@ -477,11 +477,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         + l_E6_y_E3_y_*w_E6_x_E3_y_ + l_E6_y_E4_x_*w_E6_x_E4_x_ + l_E6_y_E4_y_*w_E6_x_E4_y_
         + l_E6_y_FE_theta_*w_E6_x_FE_theta_ + l_E6_y_HE_theta_*w_E6_x_HE_theta_ + l_E6_y_OF_theta_*w_E6_x_OF_theta_;
     const double determinant_E6_x_E6_y_ = pivot_E6_x_*pivot_E6_y_ - (pivot_E6_x_E6_y_ * pivot_E6_x_E6_y_);
-    if (!(pivot_E6_x_ > discrete->least * size_E6_x_)) {
+    if (!(pivot_E6_x_ > discrete->min_pivot * size_E6_x_)) {
         pivot = 19;
         goto dependent;
     }
-    if (!(determinant_E6_x_E6_y_ > discrete->least * size_E6_y_ * pivot_E6_x_)) {
+    if (!(determinant_E6_x_E6_y_ > discrete->min_pivot * size_E6_y_ * pivot_E6_x_)) {
         pivot = 20;
         goto dependent;
     }

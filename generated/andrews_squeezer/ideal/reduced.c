@@ -490,11 +490,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         goto dependent;
     }
     const double size_H_x_ = scale_H_x_ + scale_H_y_;
-    if (!(scale_H_x_ > discrete->least_size * size_H_x_)) {
+    if (!(scale_H_x_ > discrete->min_pivot_size * size_H_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_H_x_H_y_ > discrete->least_size * size_H_x_ * scale_H_x_)) {
+    if (!(determinant_H_x_H_y_ > discrete->min_pivot_size * size_H_x_ * scale_H_x_)) {
         pivot = 2;
         goto dependent;
     }
@@ -536,11 +536,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         goto dependent;
     }
     const double size_G_x_ = scale_G_x_ + scale_G_y_;
-    if (!(scale_G_x_ > discrete->least_size * size_G_x_)) {
+    if (!(scale_G_x_ > discrete->min_pivot_size * size_G_x_)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_G_x_G_y_ > discrete->least_size * size_G_x_ * scale_G_x_)) {
+    if (!(determinant_G_x_G_y_ > discrete->min_pivot_size * size_G_x_ * scale_G_x_)) {
         pivot = 4;
         goto dependent;
     }
@@ -595,16 +595,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x_E3_y_ > discrete->least * scale_E3_y_ * scale_E3_x_)) {
+    if (!(determinant_E3_x_E3_y_ > discrete->min_pivot * scale_E3_y_ * scale_E3_x_)) {
         pivot = 6;
         goto dependent;
     }
     const double size_E3_x_ = scale_E3_x_ + scale_E3_y_;
-    if (!(scale_E3_x_ > discrete->least_size * size_E3_x_)) {
+    if (!(scale_E3_x_ > discrete->min_pivot_size * size_E3_x_)) {
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x_E3_y_ > discrete->least_size * size_E3_x_ * scale_E3_x_)) {
+    if (!(determinant_E3_x_E3_y_ > discrete->min_pivot_size * size_E3_x_ * scale_E3_x_)) {
         pivot = 6;
         goto dependent;
     }

@@ -152,11 +152,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double size_B_y_ = p->mobility_B_x_ + scale_B_y_;
     const double pivot_B_x_B_y_ = l_B_y_coupler_theta_*w_B_x_coupler_theta_ + l_B_y_rocker_theta_*w_B_x_rocker_theta_;
     const double determinant_B_x_B_y_ = -(pivot_B_x_B_y_ * pivot_B_x_B_y_) + scale_B_x_*scale_B_y_;
-    if (!(scale_B_x_ > discrete->least * size_B_x_)) {
+    if (!(scale_B_x_ > discrete->min_pivot * size_B_x_)) {
         pivot = 8;
         goto dependent;
     }
-    if (!(determinant_B_x_B_y_ > discrete->least * size_B_y_ * scale_B_x_)) {
+    if (!(determinant_B_x_B_y_ > discrete->min_pivot * size_B_y_ * scale_B_x_)) {
         pivot = 9;
         goto dependent;
     }

@@ -252,16 +252,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x_B_y_ > discrete->least * scale_B_y_ * scale_B_x_)) {
+    if (!(determinant_B_x_B_y_ > discrete->min_pivot * scale_B_y_ * scale_B_x_)) {
         pivot = 2;
         goto dependent;
     }
     const double size_B_x_ = scale_B_x_ + scale_B_y_;
-    if (!(scale_B_x_ > discrete->least_size * size_B_x_)) {
+    if (!(scale_B_x_ > discrete->min_pivot_size * size_B_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x_B_y_ > discrete->least_size * size_B_x_ * scale_B_x_)) {
+    if (!(determinant_B_x_B_y_ > discrete->min_pivot_size * size_B_x_ * scale_B_x_)) {
         pivot = 2;
         goto dependent;
     }

@@ -268,11 +268,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double pivot_B1_x_B1_y_ = l_B1_y_coupler1_theta_*w_B1_x_coupler1_theta_
         + l_B1_y_crank0_theta_*w_B1_x_crank0_theta_ + l_B1_y_crank1_theta_*w_B1_x_crank1_theta_;
     const double determinant_B1_x_B1_y_ = -(pivot_B1_x_B1_y_ * pivot_B1_x_B1_y_) + scale_B1_x_*scale_B1_y_;
-    if (!(scale_B1_x_ > discrete->least * size_B1_x_)) {
+    if (!(scale_B1_x_ > discrete->min_pivot * size_B1_x_)) {
         pivot = 11;
         goto dependent;
     }
-    if (!(determinant_B1_x_B1_y_ > discrete->least * size_B1_y_ * scale_B1_x_)) {
+    if (!(determinant_B1_x_B1_y_ > discrete->min_pivot * size_B1_y_ * scale_B1_x_)) {
         pivot = 12;
         goto dependent;
     }
@@ -300,11 +300,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         + l_B2_y_coupler2_theta_*w_B2_x_coupler2_theta_ + l_B2_y_crank1_theta_*w_B2_x_crank1_theta_
         + l_B2_y_crank2_theta_*w_B2_x_crank2_theta_;
     const double determinant_B2_x_B2_y_ = pivot_B2_x_*pivot_B2_y_ - (pivot_B2_x_B2_y_ * pivot_B2_x_B2_y_);
-    if (!(pivot_B2_x_ > discrete->least * size_B2_x_)) {
+    if (!(pivot_B2_x_ > discrete->min_pivot * size_B2_x_)) {
         pivot = 13;
         goto dependent;
     }
-    if (!(determinant_B2_x_B2_y_ > discrete->least * size_B2_y_ * pivot_B2_x_)) {
+    if (!(determinant_B2_x_B2_y_ > discrete->min_pivot * size_B2_y_ * pivot_B2_x_)) {
         pivot = 14;
         goto dependent;
     }

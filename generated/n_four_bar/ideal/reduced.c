@@ -382,11 +382,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         goto dependent;
     }
     const double size_B2_x_ = scale_B2_x_ + scale_B2_y_;
-    if (!(scale_B2_x_ > discrete->least_size * size_B2_x_)) {
+    if (!(scale_B2_x_ > discrete->min_pivot_size * size_B2_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x_B2_y_ > discrete->least_size * size_B2_x_ * scale_B2_x_)) {
+    if (!(determinant_B2_x_B2_y_ > discrete->min_pivot_size * size_B2_x_ * scale_B2_x_)) {
         pivot = 2;
         goto dependent;
     }
@@ -439,16 +439,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x_B1_y_ > discrete->least * scale_B1_y_ * scale_B1_x_)) {
+    if (!(determinant_B1_x_B1_y_ > discrete->min_pivot * scale_B1_y_ * scale_B1_x_)) {
         pivot = 4;
         goto dependent;
     }
     const double size_B1_x_ = scale_B1_x_ + scale_B1_y_;
-    if (!(scale_B1_x_ > discrete->least_size * size_B1_x_)) {
+    if (!(scale_B1_x_ > discrete->min_pivot_size * size_B1_x_)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x_B1_y_ > discrete->least_size * size_B1_x_ * scale_B1_x_)) {
+    if (!(determinant_B1_x_B1_y_ > discrete->min_pivot_size * size_B1_x_ * scale_B1_x_)) {
         pivot = 4;
         goto dependent;
     }

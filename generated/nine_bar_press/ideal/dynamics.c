@@ -381,11 +381,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double pivot_P2_x_P2_y_ = l_P2_y_L2_theta_*w_P2_x_L2_theta_ + l_P2_y_L6_theta_*w_P2_x_L6_theta_
         + l_P2_y_L7_theta_*w_P2_x_L7_theta_;
     const double determinant_P2_x_P2_y_ = -(pivot_P2_x_P2_y_ * pivot_P2_x_P2_y_) + scale_P2_x_*scale_P2_y_;
-    if (!(scale_P2_x_ > discrete->least * size_P2_x_)) {
+    if (!(scale_P2_x_ > discrete->min_pivot * size_P2_x_)) {
         pivot = 20;
         goto dependent;
     }
-    if (!(determinant_P2_x_P2_y_ > discrete->least * size_P2_y_ * scale_P2_x_)) {
+    if (!(determinant_P2_x_P2_y_ > discrete->min_pivot * size_P2_y_ * scale_P2_x_)) {
         pivot = 21;
         goto dependent;
     }
@@ -420,11 +420,11 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double pivot_P3_x_P3_y_ = l_P3_y_L3_theta_*w_P3_x_L3_theta_ + l_P3_y_L6_theta_*w_P3_x_L6_theta_
         + l_P3_y_L7_theta_*w_P3_x_L7_theta_ + l_P3_y_P2_x_*w_P3_x_P2_x_ + l_P3_y_P2_y_*w_P3_x_P2_y_;
     const double determinant_P3_x_P3_y_ = pivot_P3_x_*pivot_P3_y_ - (pivot_P3_x_P3_y_ * pivot_P3_x_P3_y_);
-    if (!(pivot_P3_x_ > discrete->least * size_P3_x_)) {
+    if (!(pivot_P3_x_ > discrete->min_pivot * size_P3_x_)) {
         pivot = 22;
         goto dependent;
     }
-    if (!(determinant_P3_x_P3_y_ > discrete->least * size_P3_y_ * pivot_P3_x_)) {
+    if (!(determinant_P3_x_P3_y_ > discrete->min_pivot * size_P3_y_ * pivot_P3_x_)) {
         pivot = 23;
         goto dependent;
     }
@@ -448,7 +448,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         + l_guide_offset_P2_y_*w_guide_offset_P2_y_ + l_guide_offset_P3_x_*w_guide_offset_P3_x_
         + l_guide_offset_P3_y_*w_guide_offset_P3_y_ + scale_guide_offset_;
     const double size_guide_offset_ = p->mobility_guide_offset_ + scale_guide_offset_;
-    if (!(pivot_guide_offset_ > discrete->least * size_guide_offset_)) {
+    if (!(pivot_guide_offset_ > discrete->min_pivot * size_guide_offset_)) {
         pivot = 24;
         goto dependent;
     }

@@ -515,17 +515,17 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > discrete->least * scale_L2_head_L3_head_y_
+    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > discrete->min_pivot * scale_L2_head_L3_head_y_
         * scale_L2_head_L3_head_x_)) {
         pivot = 3;
         goto dependent;
     }
     const double size_L2_head_L3_head_x_ = scale_L2_head_L3_head_x_ + scale_L2_head_L3_head_y_;
-    if (!(scale_L2_head_L3_head_x_ > discrete->least_size * size_L2_head_L3_head_x_)) {
+    if (!(scale_L2_head_L3_head_x_ > discrete->min_pivot_size * size_L2_head_L3_head_x_)) {
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > discrete->least_size * size_L2_head_L3_head_x_
+    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > discrete->min_pivot_size * size_L2_head_L3_head_x_
         * scale_L2_head_L3_head_x_)) {
         pivot = 3;
         goto dependent;
@@ -562,20 +562,20 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         + l_P2_y_L6_theta_*w_P2_x_L6_theta_ + l_P2_y_L7_theta_*span_L7_tail_y_
         + l_P2_y_guide_offset_*w_P2_x_guide_offset_;
     const double determinant_P2_x_P2_y_ = pivot_P2_x_*pivot_P2_y_ - (pivot_P2_x_P2_y_ * pivot_P2_x_P2_y_);
-    if (!(pivot_P2_x_ > discrete->least * scale_P2_x_)) {
+    if (!(pivot_P2_x_ > discrete->min_pivot * scale_P2_x_)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x_P2_y_ > discrete->least * scale_P2_y_ * pivot_P2_x_)) {
+    if (!(determinant_P2_x_P2_y_ > discrete->min_pivot * scale_P2_y_ * pivot_P2_x_)) {
         pivot = 5;
         goto dependent;
     }
     const double size_P2_x_ = scale_P2_x_ + scale_P2_y_;
-    if (!(pivot_P2_x_ > discrete->least_size * size_P2_x_)) {
+    if (!(pivot_P2_x_ > discrete->min_pivot_size * size_P2_x_)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x_P2_y_ > discrete->least_size * size_P2_x_ * pivot_P2_x_)) {
+    if (!(determinant_P2_x_P2_y_ > discrete->min_pivot_size * size_P2_x_ * pivot_P2_x_)) {
         pivot = 5;
         goto dependent;
     }

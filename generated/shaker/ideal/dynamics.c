@@ -189,7 +189,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double scale_guide_offset_ = l_guide_offset_rod_theta_*w_guide_offset_rod_theta_;
     const double pivot_guide_offset_ = scale_guide_offset_;
     const double size_guide_offset_ = p->mobility_guide_offset_ + scale_guide_offset_;
-    if (!(pivot_guide_offset_ > discrete->least * size_guide_offset_)) {
+    if (!(pivot_guide_offset_ > discrete->min_pivot * size_guide_offset_)) {
         pivot = 11;
         goto dependent;
     }

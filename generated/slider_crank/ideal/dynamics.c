@@ -134,7 +134,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*w_cylinder_offset_rod_theta_;
     const double pivot_cylinder_offset_ = scale_cylinder_offset_;
     const double size_cylinder_offset_ = p->mobility_cylinder_offset_ + scale_cylinder_offset_;
-    if (!(pivot_cylinder_offset_ > discrete->least * size_cylinder_offset_)) {
+    if (!(pivot_cylinder_offset_ > discrete->min_pivot * size_cylinder_offset_)) {
         pivot = 9;
         goto dependent;
     }

@@ -117,7 +117,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         - arm_rod_crankpin_x_*l_slider_offset_rod_theta_;
     const double pivot_slider_offset_ = scale_slider_offset_;
     const double size_slider_offset_ = p->mobility_slider_offset_ + scale_slider_offset_;
-    if (!(pivot_slider_offset_ > discrete->least * size_slider_offset_)) {
+    if (!(pivot_slider_offset_ > discrete->min_pivot * size_slider_offset_)) {
         pivot = 5;
         goto dependent;
     }

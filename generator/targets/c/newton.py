@@ -44,7 +44,7 @@ def print_newton_functions(newton: Newton, render: Render) -> str:
         "newton.c.jinja",
         kernels="\n".join(map(functions.print_kernel, kernels)),
         tables=[(name, _print_table_rows(entries)) for name, entries in newton.tables.items()],
-        counts=[*counts, ("N_NODES", newton.nodes)],
+        counts=[*counts, ("N_LINEAR_UNKNOWNS", newton.nodes)],
     )
 
 

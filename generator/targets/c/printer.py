@@ -231,11 +231,11 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_NextAbove(self, expr: sp.Expr) -> str:
         """Print a value slightly above its argument."""
-        return self._print_call("just_ahead", expr.args[0])
+        return self._print_call("slightly_above", expr.args[0])
 
     def _print_NextBelow(self, expr: sp.Expr) -> str:
         """Print a value slightly below its argument."""
-        return self._print_call("just_behind", expr.args[0])
+        return self._print_call("slightly_below", expr.args[0])
 
 
 def is_normal(number: sp.Expr) -> bool:

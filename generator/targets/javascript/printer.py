@@ -41,7 +41,7 @@ const {{{", ".join(name for name in IN_SYMPY if name == IN_SYMPY[name].in_c)}, s
     + """\
 const max_of = (x, y) => (x < y ? y : x), min_of = (x, y) => (x > y ? y : x), INFINITY = Infinity;
 const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x);
-const just_ahead = (x) => x + 1e-9 * (1 + fabs(x)), just_behind = (x) => x - 1e-9 * (1 + fabs(x));
+const slightly_above = (x) => x + 1e-9 * (1 + fabs(x)), slightly_below = (x) => x - 1e-9 * (1 + fabs(x));
 const finite_slope = (derivative, value_after, value_before, distance) =>
     (isFinite(derivative) ? derivative : (value_after - value_before) / distance);
 const mod_of = (a, b) => {

@@ -16,7 +16,7 @@ static void begins_and_ends(void)
 {
     const Contacts *contacts = &run.contacts;
     changes(2.0, 1.0);
-    CHECK(run.discrete.contact[0].closed && contacts->lasting[0].t_on == 2.0 && contacts->lasting[0].deltadot == 1.0);
+    CHECK(run.discrete.contact[0].closed && contacts->ongoing[0].t_on == 2.0 && contacts->ongoing[0].deltadot == 1.0);
     CHECK(contacts->onsets == 1 && contacts->is_compressing[0]);
     update_compression(&run, 0, -1.0);
     CHECK(!contacts->is_compressing[0]);
@@ -26,13 +26,13 @@ static void begins_and_ends(void)
 
     /* the rate of an onset is at least the floor of the law */
     changes(8.0, 1e-9);
-    CHECK(contacts->lasting[0].deltadot == min_approach_speed(&p, 0));
+    CHECK(contacts->ongoing[0].deltadot == min_approach_speed(&p, 0));
 
     /* a run that begins deep in its wall is in contact, and one that begins beside it is free */
     run.discrete.contact[0].closed = 0;
     run.rhs.clearance[0] = (Clearance){.delta = 0.5, .deltadot = -3.0};
     CHECK(initialize_compliant_contacts(&run, &p) && run.discrete.contact[0].closed
-        && contacts->lasting[0].deltadot == 3.0);
+        && contacts->ongoing[0].deltadot == 3.0);
     run.rhs.clearance[0].delta = -0.5;
     CHECK(initialize_compliant_contacts(&run, &p) && !run.discrete.contact[0].closed
         && !initialize_compliant_contacts(&run, &p));
@@ -48,7 +48,7 @@ static void peaks(void)
     update_peak_force(&run, 0, 2.0, 4.0);
     CHECK(run.contacts.F_peak[0] == 5.0 && run.contacts.t_peak[0] == 1.0);
     update_contact_peak_force(&run, 0, 2.0, 4.0);
-    CHECK(run.contacts.lasting[0].F_peak == 4.0 && run.contacts.lasting[0].t_peak == 2.0);
+    CHECK(run.contacts.ongoing[0].F_peak == 4.0 && run.contacts.ongoing[0].t_peak == 2.0);
 
     /* deltadot/deltadot_minus of a contact that lasts, outside of [-1, 1] once */
     run.discrete.contact[0].deltadot_minus = 2.0;
@@ -57,7 +57,7 @@ static void peaks(void)
     run.rhs.clearance[0].deltadot = -3.0;
     update_joint_peaks(&run, 0);
     CHECK(run.contacts.ratio_max == 0.5 && run.contacts.ratio_min == -1.5 && run.contacts.ratio_outside == 1.0);
-    CHECK(run.contacts.lasting[0].F_peak == 5.0 && run.contacts.e_max[0] == 0.5);
+    CHECK(run.contacts.ongoing[0].F_peak == 5.0 && run.contacts.e_max[0] == 0.5);
 }
 
 static void lists(void)
@@ -80,7 +80,7 @@ static void lists(void)
     CHECK(run.contacts.n_impacts == 1 && run.contacts.impacts[0].F_peak == 4.0);
     while (run.contacts.n_impacts < LISTED_IMPACTS)
         CHECK(!append_contact(&run, &bounce));
-    CHECK(has_full_lists(&run) && append_contact(&run, &bounce) == CHATTERING
+    CHECK(has_full_buffers(&run) && append_contact(&run, &bounce) == CHATTERING
         && run.contacts.n_impacts == LISTED_IMPACTS);
 }
 

@@ -26,7 +26,7 @@ int main(void)
 
     set_method_choice(&run, explicit, stiff);
     CHECK(steps_to_change(below, 1000) == 0);
-    CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
+    CHECK(steps_to_change(beyond, 1000) == MAX_OPPOSING_STEPS);
     CHECK(run.choice.method == METHODS[stiff]);
 
     /* a step of the other kind in between begins the count anew */
@@ -36,20 +36,20 @@ int main(void)
 
     /* a return that did not last makes the next one twice as hard, up to a limit */
     for (int return_steps = 2 * MIN_RETURN_STEPS; return_steps <= MAX_RETURN_STEPS; return_steps *= 2) {
-        CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
+        CHECK(steps_to_change(beyond, 1000) == MAX_OPPOSING_STEPS);
         CHECK(steps_to_change(below, 2 * MAX_RETURN_STEPS) == return_steps);
     }
-    CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
+    CHECK(steps_to_change(beyond, 1000) == MAX_OPPOSING_STEPS);
     CHECK(steps_to_change(below, 2 * MAX_RETURN_STEPS) == MAX_RETURN_STEPS);
 
     /* one that lasted makes it as easy as the first */
     CHECK(steps_to_change(below, LASTING_STEPS) == 0);
-    CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
+    CHECK(steps_to_change(beyond, 1000) == MAX_OPPOSING_STEPS);
     CHECK(steps_to_change(below, 1000) == MIN_RETURN_STEPS);
 
     /* explicit steps that are too short beside the stiff ones from before lead back as well */
     run.control.h_stiff = 1.0;
     run.control.h = 0.5 * STIFF_LENGTH_RATIO;
-    CHECK(steps_to_change(below, 1000) == MIN_COMPARE_STEPS + 1 + MAX_CONTRARY_STEPS);
+    CHECK(steps_to_change(below, 1000) == MIN_COMPARE_STEPS + 1 + MAX_OPPOSING_STEPS);
     return failures;
 }

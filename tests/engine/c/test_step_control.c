@@ -66,10 +66,10 @@ int main(void)
 
     /* fixed lengths: the last step ends where the run does */
     start_step_control(&run, 0.3);
-    CHECK(!(1e300 > run.control.accept));
+    CHECK(!(1e300 > run.control.max_accepted_error));
     run.t = 0.0;
     open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
-    CHECK(run.control.attempt.h == 0.3 && run.control.attempt.open);
+    CHECK(run.control.attempt.h == 0.3 && run.control.attempt.is_open);
     run.t = 0.4; /* behind an event: to the end of the grid */
     open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
     CHECK(CLOSE(run.control.attempt.h, 0.2, 1e-15) && run.control.attempt.end == 0.6);
@@ -77,7 +77,7 @@ int main(void)
     open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
     CHECK(CLOSE(run.control.attempt.h, 1.0 - run.t, 1e-15) && run.control.attempt.end == 1.0);
     close_attempt(&run);
-    CHECK(!run.control.attempt.open);
+    CHECK(!run.control.attempt.is_open);
 
     /* the length that fits after an event is kept in its place, and begins the next such step */
     double *known = &run.control.after_contact[1][0];
