@@ -380,7 +380,7 @@ static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
 /*
  * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
  * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
- * AUDIT_MAX_DEPTH times the larger of AT_REST and the tolerance of the largest speed. In stick the force exceeds its
+ * AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force exceeds its
  * static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with check_rigid_forces(), and
  * omitted at the same times.
  */
@@ -388,7 +388,7 @@ static void check_friction_modes(Integrator *run, double t, const RhsOutputs *rh
 {
 #if N_FRICTIONS
     const double speed = max_of(run->norm.speed[0], get_mechanism_size(run) * run->norm.speed[1]);
-    const double min_slip = AUDIT_MAX_DEPTH * max_of(AT_REST, get_audit_tolerance(run) * speed);
+    const double min_slip = AUDIT_MAX_DEPTH * max_of(MAX_STICK_SPEED, get_audit_tolerance(run) * speed);
     const double location_tolerance = compute_event_location_tolerance(run);
     for (int i = 0; i < N_FRICTIONS && t > run->t + location_tolerance; i++) {
         const Friction *friction = &rhs->friction[i];
