@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.repeats import divide_into_repeats, find_line_shape
+from gudgeon.generator.ir.repeats import divide_into_repeats, make_line_structure_key
 from gudgeon.generator.ir.signatures import (
     PARAMETERS,
     Access,
@@ -63,21 +63,21 @@ def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_
             readers[operand].append(k)
     order: list[int] = []
     n_missing = [len(needed) for needed in dependencies]
-    is_placed = [False] * len(read_names)
+    is_scheduled = [False] * len(read_names)
 
     def append_with_ready_readers(first_index: int) -> None:
         """Append statement `first_index` to the order, then all statements whose last missing operand it defines."""
         ready_indices = [first_index]
         while ready_indices:
             k = ready_indices.pop()
-            if is_placed[k]:
+            if is_scheduled[k]:
                 continue
-            is_placed[k] = True
+            is_scheduled[k] = True
             order.append(k)
             for reader in readers[k]:
                 n_missing[reader] -= 1
             ready_indices += [
-                reader for reader in reversed(readers[k]) if not n_missing[reader] and not is_placed[reader]
+                reader for reader in reversed(readers[k]) if not n_missing[reader] and not is_scheduled[reader]
             ]
 
     roots = [k for k, following in enumerate(readers) if not following]
@@ -85,12 +85,12 @@ def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_
         pending = [root]
         while pending:
             k = pending[-1]
-            operands = [operand for operand in sorted(dependencies[k], reverse=True) if not is_placed[operand]]
-            if operands and not is_placed[k]:
+            operands = [operand for operand in sorted(dependencies[k], reverse=True) if not is_scheduled[operand]]
+            if operands and not is_scheduled[k]:
                 pending += operands
                 continue
             pending.pop()
-            if not is_placed[k]:
+            if not is_scheduled[k]:
                 append_with_ready_readers(k)
     return order
 
@@ -130,7 +130,7 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     array_name = _find_unused_name("passed", items)
     index_of_passed = _number_passed_locals(pieces)
     splitter = _Splitter(kernel, index_of_passed, array_name, copies, added_arguments)
-    pieces, functions = _move_dependent_rows(pieces, splitter)
+    pieces, functions = _outline_dependent_row_terms(pieces, splitter)
     title = "values that pass between the parts"
     main_items = [
         TitledLine(title, Declare(Number.REAL, array_name, (max(len(index_of_passed), 1),)), frozenset(), False)
@@ -254,7 +254,7 @@ def _divide_movable_lines(lines: Sequence[TitledLine], copies: Mapping[str, Line
     """
     pieces = []
     first = 0
-    shapes = [find_line_shape(item.line, copies) for item in lines]
+    shapes = [make_line_structure_key(item.line, copies) for item in lines]
     for length, repeats in divide_into_repeats(shapes, _MAX_REPEATED_LINES, _MIN_REPEATED_LINES):
         n_pieces = 1 if repeats else -(-length // _MAX_PART_LINES)
         size = -(-length // n_pieces)
@@ -286,10 +286,10 @@ def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, i
     return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
 
 
-def _move_dependent_rows(
+def _outline_dependent_row_terms(
     pieces: Sequence[Sequence[TitledLine]], splitter: _Splitter
 ) -> tuple[list[list[TitledLine]], list[Kernel]]:
-    """Return the pieces with the forces and right-hand sides for a vanished pivot computed by a function, and it.
+    """Return (pieces, new functions); a new function computes the forces and right-hand sides for a vanished pivot.
 
     In the calling function each of them would be a local that is alive over the calls of all parts, from any of which
     the code may be reached. Nothing is moved if one reads more than arguments and results of parts.
@@ -299,8 +299,11 @@ def _move_dependent_rows(
     available |= splitter.argument_copies.keys() | {argument.name for argument in splitter.kernel.arguments}
     functions: list[Kernel] = []
 
-    def move(item: TitledLine) -> TitledLine:
-        """Return a line with a call in place of the expressions that the new function computes."""
+    def replace_by_call(item: TitledLine) -> TitledLine:
+        """Return a line of redundant equations with a call in place of the expressions that the new function computes.
+
+        Other lines are returned unchanged. The new function is appended to `functions`.
+        """
         line = item.line
         if not (isinstance(line, SolveDependentRows) and line.force):
             return item
@@ -318,7 +321,7 @@ def _move_dependent_rows(
         new_line = replace(line, force=(), rhs=(), call=call)
         return replace(item, line=new_line, reads=new_line.reads)
 
-    return [[move(item) for item in piece] for piece in pieces], functions
+    return [[replace_by_call(item) for item in piece] for piece in pieces], functions
 
 
 def _find_unused_name(name: str, items: Sequence[TitledLine]) -> str:

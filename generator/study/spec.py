@@ -174,7 +174,7 @@ class Draw:
     count: int
     seed: int
     method: str
-    numbers: Mapping[Text, Distribution]
+    distributions: Mapping[Text, Distribution]
     names: tuple[str, ...]  # all drawn parameters of the file: the points of one do not change if another one is set
 
 
