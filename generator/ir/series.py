@@ -404,7 +404,7 @@ def _make_convolution_operand_stores(products: Sequence[Product]) -> list[Sectio
 def _prune_lines(lines: list[SectionLine]) -> list[SectionLine]:
     """Return the pairs (section title, line) without lines that define a local which no later line reads."""
     used_ids = {id(line) for line in remove_unused_lines([line for _, line in lines], set())}
-    return [item for item in lines if id(item[1]) in used_ids]
+    return [(title, line) for title, line in lines if id(line) in used_ids]
 
 
 def _group_sections(lines: Iterable[SectionLine]) -> tuple[Section, ...]:

@@ -189,7 +189,7 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     name, film = clearance.name, clearance.film
 
     def make_contact_statements(equations: Sequence[Assignment]) -> Statements:
-        """Return the statements of equations, with guards at the centre and with frozen branches."""
+        """Return the statements of equations, with conditional values at the centre and with frozen branches."""
         return _make_joint_statements(model, equations, name, _make_conditional_values(clearance, equations))
 
     laws, parts = make_law_calls(model, clearance, shared_functions), {}
@@ -222,7 +222,7 @@ def _make_conditional_values(clearance: Clearance, equations: Sequence[Assignmen
     if not clearance.contour:
         return {} if clearance.wall else _CONDITIONAL_NORMAL
     value = {equation.symbol: equation.value for equation in equations}
-    guarded = {
+    conditional_values = {
         symbol: Conditional(_HAS_GRADIENT, value[symbol], centre_value)
         for symbol, centre_value in _NORMAL_AT_CENTRE.items()
         if symbol in value
@@ -230,31 +230,32 @@ def _make_conditional_values(clearance: Clearance, equations: Sequence[Assignmen
     contour_rate = value.get(contact.beta_rate)
     if contour_rate is not None:
         relative_motion = (contour_rate + contact.omega_i) * contact.e
-        guarded[contact.beta_rate] = Conditional(
+        conditional_values[contact.beta_rate] = Conditional(
             _IS_OFF_CENTRE, relative_motion * _INVERSE_E - contact.omega_i, -contact.omega_i
         )
-    return _CONDITIONAL_CONTOUR | guarded
+    return _CONDITIONAL_CONTOUR | conditional_values
 
 
 def _make_joint_statements(
-    model: Model, equations: Sequence[Assignment], owner: str, guards: Mapping[sp.Symbol, Conditional]
+    model: Model, equations: Sequence[Assignment], joint_name: str, conditional_values: Mapping[sp.Symbol, Conditional]
 ) -> Statements:
-    """Return equations as statements that read parameters from their struct and use the frozen branches of a joint.
+    """Return equations of a contact as statements that read parameters from their struct and use frozen branches.
 
-    `guards`: conditional values, by symbol, that replace those of the equations; with any guards, a statement
-    "inverse_e" = 1/e follows that of e. `owner`: the name of the joint.
+    `conditional_values`, by symbol, replace the values of equations that divide by the eccentricity e; with any of
+    them, a statement "inverse_e" = 1/e follows that of e. `joint_name`: the name of the joint.
     """
     statements = []
     for equation in equations:
         statements.append(
             Statement(
-                equation.symbol.name, guards.get(equation.symbol) or read_parameters_from_struct(model, equation.value)
+                equation.symbol.name,
+                conditional_values.get(equation.symbol) or read_parameters_from_struct(model, equation.value),
             )
         )
-        if equation.symbol == contact.e and guards:  # the contour has a centre
+        if equation.symbol == contact.e and conditional_values:  # the contour has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
-    (section,) = freeze_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
-    return tuple(item for item in section.statements if isinstance(item, Statement))
+    (section,) = freeze_branches(model.symbols.switches, joint_name, [Section("", tuple(statements))])
+    return tuple(line for line in section.statements if isinstance(line, Statement))
 
 
 def make_derivative_calls(

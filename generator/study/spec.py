@@ -66,7 +66,7 @@ class TrendStatement:
 
 @dataclass(frozen=True)
 class TrendClaim:
-    """Represent a published statement about runs in words; without trials it is not computed, for the reason given."""
+    """Represent a published statement about runs; it is tested by `statements`, or `not_computed` tells why not."""
 
     name: Text
     figure: str

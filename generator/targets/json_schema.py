@@ -203,8 +203,8 @@ def _make_kind_schema(name: str, kind: Kind) -> Json:
 
     One target is a string, two are a list.
     """
-    item = _make_reference(kind.targets)
-    target_schemas = [item if count == 1 else _make_list_schema(item, count) for count in kind.counts]
+    target_schema = _make_reference(kind.targets)
+    target_schemas = [target_schema if count == 1 else _make_list_schema(target_schema, count) for count in kind.counts]
     targets = target_schemas[0] if len(target_schemas) == 1 else {"anyOf": target_schemas}
     entry_schema = _make_object_schema(
         {name: targets, **_make_field_schemas(kind.fields)}, [name, *_list_required_keys(kind.fields)]

@@ -139,10 +139,8 @@ def _make_jacobian_question(subject: Subject) -> Question:
         for q in sorted(row.phi_q, key=column_of.__getitem__):
             x = float(values[k - 1, column_of[q]])
             numbers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
-            coordinate_text = subject.notation.format_expression(q)
-            left = Formula(
-                rf"\partial \Phi_{{{k}}} / \partial {coordinate_text.latex}", f"∂Φ_{k}/∂{coordinate_text.text}"
-            )
+            coordinate = subject.notation.format_expression(q)
+            left = Formula(rf"\partial \Phi_{{{k}}} / \partial {coordinate.latex}", f"∂Φ_{k}/∂{coordinate.text}")
             entry = subject.notation.expand_symbols(row.phi_q[q])
             formula: str | Formula = (
                 subject.notation.format_expression(entry) if sp.count_ops(entry) <= MAX_OPERATIONS else ""
