@@ -113,7 +113,7 @@ class Field:
     kinds: Callable[[], Mapping[str, Kind]] | None = None
 
     @property
-    def any_dimension(self) -> bool:
+    def accepts_any_dimension(self) -> bool:
         """Return whether the field's dimension is not fixed (`dimension` is None), so that its unit is not checked."""
         return self.dimension is None
 

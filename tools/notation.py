@@ -21,7 +21,7 @@ from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MAT
 from gudgeon.generator.kinds.laws.law import CONSTRAINT_VARIABLES, RESULTS, find_bundled_laws
 from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_letter
-from gudgeon.generator.targets.latex.play import PAIR
+from gudgeon.generator.targets.latex.play import BEARING_DIMENSIONS
 from gudgeon.generator.targets.latex.play_letters import GUIDE as GUIDE_LETTERS
 from gudgeon.generator.targets.latex.play_letters import LAW_SPECIFIC_NAMES, LAW_SYMBOL_NAMES, NAMES, get_latex_symbol
 from gudgeon.language.plot_units import format_unit
@@ -114,7 +114,7 @@ LOCAL_VARIABLES = (  # symbol, quantity, Python, C variables, unit
 )
 STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (
-        steps.stored,
+        steps.stored_approach_speed,
         "approach speed: rate of $\\delta$ at the onset",
         "`JOINT.deltadot_minus`",
         "contact->deltadot_minus",
@@ -128,7 +128,7 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (steps.w_n, "effective squeeze velocity of a film along $\\mathbf n$, divided by $c$", "", "w_n", "1/s"),
     (steps.w_t, "effective squeeze velocity of a film along $\\mathbf t$, divided by $c$", "", "w_t", "1/s"),
     (sp.Symbol("F_r", real=True), "force of a film along $\\mathbf n$", "", "F_r", "N"),
-    (steps.steep, "length of the gradient of $\\delta$ in a bearing with a contour", "", "steep", "1"),
+    (steps.gradient_length, "length of the gradient of $\\delta$ in a bearing with a contour", "", "steep", "1"),
     (steps.contour_depth, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
     (steps.beta_i, "angle of $\\mathbf e$ in the body of the bearing, with a contour", "", "beta_i", "rad"),
 )
@@ -210,7 +210,7 @@ SECTIONS = (
     ("Bodies", "bodies.BODY", BODY),
     ("Contacts", "contacts.NAME", CONTACT),
 )
-IN_LAWS = {field: sign for field, sign, _ in PAIR}  # symbols of a bearing in the laws
+IN_LAWS = {field: sign for field, sign, _ in BEARING_DIMENSIONS}  # symbols of a bearing in the laws
 IN_GUIDE = {field: sign for field, sign, _ in GUIDE_LETTERS}
 IN_SECTION = {  # what the words of a declaration do not say: the term of physics.md
     "bearings.NAME.length": "length of the bearing: length of the pin in the hole",

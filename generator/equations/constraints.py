@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.ir.differentiation import compute_partial_derivative
-from gudgeon.generator.ir.finite_slopes import Upon as FrozenSign
+from gudgeon.generator.ir.finite_slopes import FrozenSign
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, convert_to_sympy
@@ -37,9 +37,9 @@ class Row:
 
 
 class Constraints(Freezable):
-    """Derivation of constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive.
+    """Derivation of constraint equations; `t` is the symbol of time, `drive_functions` the prescribed values by drive.
 
-    `drive_angles` maps each drive to the symbols of its value and two derivatives by t.
+    `drive_functions` maps each drive to the symbols of its value and two derivatives by t.
     """
 
     def __init__(self, geometry: Geometry) -> None:
@@ -49,7 +49,7 @@ class Constraints(Freezable):
         """
         self.geometry, self.symbols = geometry, geometry.symbols
         self.t = self.symbols.add_symbol("time", Place("t"), "time", "s")
-        self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
+        self.drive_functions: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def derive_joint_rows(self, joint: Joint) -> list[Row]:
         """Return the constraint equations of a joint, named "<joint>.<row>", in the order of its type's `row_names`.
@@ -135,10 +135,10 @@ class Constraints(Freezable):
         """Return the symbol of the prescribed function f(t) of a drive.
 
         At the first call f, f′ and f″ are defined as symbols with rules for the derivatives by t, and stored in
-        `drive_angles`.
+        `drive_functions`.
         """
-        if drive.name in self.drive_angles:
-            return self.drive_angles[drive.name][0]
+        if drive.name in self.drive_functions:
+            return self.drive_functions[drive.name][0]
         parameter_table, define = self.geometry.parameter_table, self.symbols.add_definition
 
         def find_symbol(path: str) -> sp.Symbol:
@@ -156,7 +156,7 @@ class Constraints(Freezable):
             {self.t: rate},
             {self.t: second_derivative},
         )
-        self.drive_angles[drive.name] = f, rate, second_derivative
+        self.drive_functions[drive.name] = f, rate, second_derivative
         return f
 
     @staticmethod

@@ -33,7 +33,7 @@ def _make_symbol(name: str) -> sp.Symbol:
 
 e_x, e_y, de_x, de_y, omega_i, omega_j = map(_make_symbol, ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j"))
 e, n_x, n_y, delta, deltadot, de_t = map(_make_symbol, ("e", "n_x", "n_y", "delta", "deltadot", "de_t"))
-stored, ratio, a_i, a_j, v_t = map(_make_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
+stored_approach_speed, ratio, a_i, a_j, v_t = map(_make_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
 depth = _make_symbol("depth")  # max(δ, 0), the penetration in a law of the dry contact
 epsilon, w_n, w_t, share = map(_make_symbol, ("epsilon", "w_n", "w_t", "share"))
 F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_make_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
@@ -42,9 +42,9 @@ F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_make_symbol, ("F_along_n", "F_al
 theta_i, beta_i, u_x, u_y, contour_depth, contour_slope = map(
     _make_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
 )
-beta_rate, slant, steep, F_N = map(_make_symbol, ("beta_rate", "slant", "steep", "F_N"))
+beta_rate, scaled_gradient_length, gradient_length, F_N = map(_make_symbol, ("beta_rate", "slant", "steep", "F_N"))
 position_along_guide = _make_symbol("along")  # position of a slider's corner along its guide
-de_n, across, lean = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, d′/e
+de_n, rate_across_e, slope_over_e = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, d′/e
 
 
 def make_part_symbol(symbol: sp.Symbol, part: str) -> sp.Symbol:
@@ -55,8 +55,8 @@ def make_part_symbol(symbol: sp.Symbol, part: str) -> sp.Symbol:
 def make_gap_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of the gap in order: e = |(e_x, e_y)|, its direction n, penetration δ = e − c, δ̇ and ė_t.
 
-    ė_t is the component of ė along t, which is n turned by +90°. A bearing with a contour and a slider's corner at a
-    wall have other equations.
+    ė_t is the component of ė along t, which is n turned by +90°. These are the equations of a circular bearing. A
+    bearing with a contour has those of `_make_contour_gap`, a slider's corner at a wall those of `_make_wall_gap`.
     """
     if clearance.contour:
         return _make_contour_gap(clearance, clearance.contour)
@@ -75,9 +75,10 @@ def make_gap_equations(clearance: Clearance) -> list[Assignment]:
 def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Assignment]:
     """Return the equations of the gap of a bearing with a contour: δ = e − c − d(β_i), β_i the angle of e in it.
 
-    d is the depth beyond the circle. The normal n is along the gradient of δ by e, u − d′/e u_⊥, whose length Γ is
-    `steep` = `slant`/e; u is along e and u_⊥ across it. A force −F_δ times that gradient is conservative if the result
-    F_δ of the normal law depends on δ alone; the bearing then also receives the moment −d′ F_δ.
+    d is the depth beyond the circle. The normal n is along the gradient of δ by e, u − d′/e u_⊥; u is along e and u_⊥
+    across it. `gradient_length` is the length Γ of that gradient, `scaled_gradient_length` is e Γ. A force −F_δ times
+    that gradient is conservative if the result F_δ of the normal law depends on δ alone; the bearing then also receives
+    the moment −d′ F_δ.
     """
     return [
         Assignment(e, sp.sqrt(e_x**2 + e_y**2)),
@@ -89,10 +90,10 @@ def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Assignment
         Assignment(delta, e - clearance.pair.c - contour_depth),
         Assignment(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
         Assignment(deltadot, de_x * u_x + de_y * u_y - contour_slope * beta_rate),
-        Assignment(slant, sp.sqrt(e**2 + contour_slope**2)),
-        Assignment(steep, slant / e),
-        Assignment(n_x, (e_x + contour_slope * u_y) / slant),
-        Assignment(n_y, (e_y - contour_slope * u_x) / slant),
+        Assignment(scaled_gradient_length, sp.sqrt(e**2 + contour_slope**2)),
+        Assignment(gradient_length, scaled_gradient_length / e),
+        Assignment(n_x, (e_x + contour_slope * u_y) / scaled_gradient_length),
+        Assignment(n_y, (e_y - contour_slope * u_x) / scaled_gradient_length),
         Assignment(de_t, de_y * n_x - de_x * n_y),
     ]
 
@@ -120,28 +121,34 @@ def make_penetration_equation(clearance: Clearance) -> Assignment:
 def make_contour_gap_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of δ, δ̇ and ė_t of a bearing with a contour, by components along e and across it.
 
-    `de_n` and `across` are the rates of e in these directions, `contour_depth` and `contour_slope` are d and d′. Also
-    defined are `lean` = d′/e and `steep` = √(1 + lean²), the length of the gradient of δ.
+    `de_n` and `rate_across_e` are the rates of e in these directions, `contour_depth` and `contour_slope` are d and d′.
+    Also defined are `slope_over_e` = d′/e and `gradient_length` = Γ = √(1 + (d′/e)²), the length of the gradient of δ.
     """
     return [
         Assignment(delta, e - clearance.pair.c - contour_depth),
-        Assignment(lean, contour_slope / e),
-        Assignment(steep, sp.sqrt(1 + lean**2)),
-        Assignment(deltadot, de_n - lean * across + contour_slope * omega_i),
-        Assignment(de_t, (across + lean * de_n) / steep),
+        Assignment(slope_over_e, contour_slope / e),
+        Assignment(gradient_length, sp.sqrt(1 + slope_over_e**2)),
+        Assignment(deltadot, de_n - slope_over_e * rate_across_e + contour_slope * omega_i),
+        Assignment(de_t, (rate_across_e + slope_over_e * de_n) / gradient_length),
     ]
 
 
 def make_lever_arm_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations before the laws of a dry contact: lever arms a_i, a_j of the contact point, and slip v_t.
 
-    The contact point is at mid-penetration: a_i = R_i + δ/2, a_j = R_j − δ/2, v_t = ė_t + ω_j a_j − ω_i a_i. With
-    `clip_ratio` the equation of `ratio` follows, δ̇/δ̇⁻ clipped to [−1, 1].
+    The contact point is at mid-penetration: a_i = R_i + δ/2, a_j = R_j − δ/2, v_t = ė_t + ω_j a_j − ω_i a_i. In a
+    bearing with a contour, a_j = R_j − δ/(2Γ) and a_i = e/Γ + a_j. With `clip_ratio` the equation of `ratio` follows,
+    δ̇/δ̇⁻ clipped to [−1, 1].
     """
     dimensions = clearance.pair
-    clipped = [Assignment(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
+    clipped = (
+        [Assignment(ratio, sp.Max(-1, sp.Min(1, deltadot / stored_approach_speed)))] if clearance.clip_ratio else []
+    )
     if clearance.contour:
-        levers = [Assignment(a_j, dimensions.R_j - delta / (2 * steep)), Assignment(a_i, e / steep + a_j)]
+        levers = [
+            Assignment(a_j, dimensions.R_j - delta / (2 * gradient_length)),
+            Assignment(a_i, e / gradient_length + a_j),
+        ]
         return [*levers, Assignment(v_t, de_t + omega_j * a_j - omega_i * a_i), *clipped]
     return [
         Assignment(a_i, dimensions.R_i + delta / 2),
@@ -157,7 +164,7 @@ def make_contour_normal_force(clearance: Clearance) -> list[Assignment]:
     `F_N` is that normal force, and the symbol F_n of the code the result F_δ of the normal law. The list is empty
     without a contour.
     """
-    return [Assignment(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
+    return [Assignment(F_N, gradient_length * _make_symbol("F_n"))] if clearance.contour else []
 
 
 def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
@@ -166,7 +173,7 @@ def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Exp
     `F_n`: the result of the normal law; the force −F_n times the gradient of δ acts along n. `friction_force`: the
     force along t.
     """
-    return -F_n + friction_force * lean / steep, F_n * lean + friction_force / steep
+    return -F_n + friction_force * slope_over_e / gradient_length, F_n * slope_over_e + friction_force / gradient_length
 
 
 def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:

@@ -233,9 +233,9 @@ class Geometry(Freezable):
         """Return A(θ) s in ground axes (A: rotation matrix), for the components s of a vector in a body's frame.
 
         A zero vector gives zeros. Components that are all −1, 0 or 1 give expressions in cos θ and sin θ. Any other
-        vector gets a pair of symbols with derivative rules, defined once; if −s has symbols, their negatives are
-        returned. `base_name`: base of the symbols' names. `point`: the point to which the vector leads, or "" for a
-        direction.
+        vector gets a pair of symbols with derivative rules, defined once and recorded in `rotated_components`; if −s
+        has symbols, their negatives are returned. `base_name`: base of the symbols' names. `point`: the point to which
+        the vector leads, or "" for a direction.
         """
         if s == (ZERO, ZERO):
             return ZERO, ZERO

@@ -60,12 +60,12 @@ class LawEquations:
         return tuple(make_law_identifier(self.law, name) for name in self.law.results)
 
     @property
-    def variables_outside_role(self) -> tuple[str, ...]:
+    def optional_variables(self) -> tuple[str, ...]:
         """Return the names of the variables outside its role that the law reads.
 
         The role is normal, friction, film or mixed.
         """
-        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.variables_outside_role)
+        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.optional_variables)
 
 
 @dataclass(frozen=True)
@@ -191,7 +191,7 @@ def _derive_clearance(
 
         `symbols`: radii, clearance and elastic constants.
         """
-        return None if law_use is None else _derive_law(law_use, symbols, parameter_table, derive_constant)
+        return None if law_use is None else _make_law_equations(law_use, symbols, parameter_table, derive_constant)
 
     contact = play.contact
     normal, friction, mixed = (
@@ -236,14 +236,14 @@ def _make_contour(joint: Joint, play: Play, parameter_table: ParameterTable) -> 
     return Contour(parameter_table.get_or_add_array(f"contour_{joint.name}", play.contour), len(play.contour))
 
 
-def _derive_law(
+def _make_law_equations(
     law_use: LawUse, bearing_symbols: PairSymbols, parameter_table: ParameterTable, derive_constant: Derive
 ) -> LawEquations:
-    """Return a law with the symbols of its parameters and variables inserted.
+    """Return the equations of a law, with the symbols of its parameters and variables inserted.
 
     `law_use`: the law as the file uses it; `derive_constant` makes a derived parameter from name, value and meaning.
-    Optional variables that the law does not read are left out. A user-defined law is evaluated at sampled states,
-    which raises LawError for invalid values, and its own names get the ending `__`.
+    Optional variables that the law does not read are left out. A user-defined law is evaluated at sampled states, which
+    raises LawError for invalid values, and its own names get the ending `__`.
     """
     law = find_all_laws()[law_use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
@@ -269,7 +269,7 @@ def _derive_law(
         law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Unevaluated)
     )
     read_names = {symbol.name for step in equations_by_name.values() for symbol in step.free_symbols}
-    unused_names = {name for name in law.variables_outside_role if name not in read_names}
+    unused_names = {name for name in law.optional_variables if name not in read_names}
     law_variables = tuple(symbol for name, symbol in variables.items() if name not in unused_names)
     if law.name in USER_LAWS:
         check_sampled_values(law, law_variables, equations_by_name, parameter_table)
@@ -283,7 +283,7 @@ def make_law_identifier(law: Law, name: str) -> str:
     It is unchanged, except in a user-defined law: there the ending `__` is appended, unless the role of the law defines
     the name (`delta`, `F_n`). No fixed name contains `__`, and neither does a result of `make_identifier`.
     """
-    fixed = {*VARIABLES[law.role], *law.variables_outside_role, *RESULTS[law.role]}
+    fixed = {*VARIABLES[law.role], *law.optional_variables, *RESULTS[law.role]}
     return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 

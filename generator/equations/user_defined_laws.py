@@ -17,8 +17,8 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.errors import BadValueError, LawError
-from gudgeon.generator.kinds.laws.built import PAIR, probe_law
-from gudgeon.generator.kinds.laws.law import RESULTS, USER_LAWS, VARIABLES, VARIABLES_OUTSIDE_ROLE, Law, find_all_laws
+from gudgeon.generator.kinds.laws.built import PAIR_QUANTITIES, probe_law
+from gudgeon.generator.kinds.laws.law import OPTIONAL_VARIABLES, RESULTS, USER_LAWS, VARIABLES, Law, find_all_laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_law_name, format_law_prefix
 from gudgeon.generator.mechanism import LawUse, Quantity, Scene, make_onset_value
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, find_classes
@@ -148,7 +148,7 @@ def check_units(law: Law, law_use: LawUse) -> None:
     """
     probed_law = probe_law(law, law_use.options, law_use.quantities)
     dimension_of_symbol: dict[str, _DimensionOrFlexible] = {
-        f"probe_{name}": _PAIR_DIMENSIONS.get(name, LENGTH) for name in PAIR
+        f"probe_{name}": _PAIR_DIMENSIONS.get(name, LENGTH) for name in PAIR_QUANTITIES
     }
     dimension_of_symbol |= {
         f"probe_{name}": quantity.dimension or _ANY_UNIT for name, quantity in law_use.quantities.items()
@@ -320,7 +320,7 @@ def check_user_defined_laws(scene: Scene) -> None:
         if any(law.name in USER_LAWS for law, _ in laws_in_use):
             names = {law.name: _LawNames(law, law_use) for law, law_use in laws_in_use}
             for law, law_use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
-                names[law.name].check_uniqueness()
+                names[law.name].check_law_names()
                 check_units(law, law_use)
             _check_common_names([names[law.name] for law, _ in laws_in_use if law.role != "film"])
 
@@ -338,12 +338,15 @@ class _LawNames:
         ]
         self.parameter_names = [*law_use.quantities, *probed_law.derived]
 
-    def check_uniqueness(self) -> None:
-        """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law."""
+    def check_law_names(self) -> None:
+        """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law.
+
+        Checked are the names of numbers, internal states and abbreviations of a user-defined law, when a scene uses it.
+        """
         fixed_names = {
-            *PAIR,
+            *PAIR_QUANTITIES,
             "transition",
-            *itertools.chain(*VARIABLES.values(), *VARIABLES_OUTSIDE_ROLE.values(), *RESULTS.values()),
+            *itertools.chain(*VARIABLES.values(), *OPTIONAL_VARIABLES.values(), *RESULTS.values()),
         }
         all_names = [*self.local_names, *self.parameter_names]
         for name in all_names:

@@ -8,7 +8,7 @@ from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import DEPTHS, MAPPING, POINTS, RESULTS, SCALARS, VECTOR, Field
-from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.format.sections import MECHANISM_FILE
 from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml import Items, Map, Text, describe_node
 from gudgeon.language.names import make_unknown_name_error
@@ -27,7 +27,7 @@ def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> M
     for address, value in overrides.items():
         keys = _split_address(root, address)
         text = Text.make_text(_format_as_file_text(value, address), Location(OVERRIDE + address, 1, 1))
-        root = _replace_text(root, keys, text, _Address(address, root), FILE, 0)
+        root = _replace_text(root, keys, text, _Address(address, root), MECHANISM_FILE, 0)
     return root
 
 
@@ -38,7 +38,7 @@ def _split_address(root: Map, address: str) -> list[str]:
     """
     if address in root.get("parameters", ()):
         return ["parameters", address]
-    field: Field | None = FILE
+    field: Field | None = MECHANISM_FILE
     keys = address.split(".")
     for i, key in enumerate(keys):
         if field is not None and field.addresses:

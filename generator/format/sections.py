@@ -451,7 +451,7 @@ START = record(
 EXPRESSION = number("value", "expression that the name stands for", None, varies=OF_MOTION)
 OUTPUT = number("value", "value at each time, an expression", None, varies=OF_RESULTS)
 
-FILE = record(
+MECHANISM_FILE = record(
     "file",
     "a mechanism",
     Field("format", WORD, "version of this format", values=(FORMAT,), required=True),
@@ -489,4 +489,4 @@ FILE = record(
     mapping("scenes", "scenes by name; the scene `ideal`, without play, always exists", SCENE, given=(IDEAL,)),
     mapping("outputs", "additional results by name", OUTPUT),
 )
-SECTIONS: Mapping[str, Field] = {field.name: field for field in FILE.fields}
+SECTIONS: Mapping[str, Field] = {field.name: field for field in MECHANISM_FILE.fields}

@@ -26,7 +26,7 @@ from gudgeon.generator.field import (
     VECTOR,
     Field,
 )
-from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
+from gudgeon.generator.format.sections import FORMAT, MECHANISM_FILE, SECTIONS
 from gudgeon.generator.yaml import Items, Map, Text, describe_node
 from gudgeon.language.names import find_nearest_name, format_name_hint, make_unknown_name_error
 
@@ -77,7 +77,7 @@ def check_tree_structure(root: Map) -> CheckedTree:
     errors: list[InputError] = []
     removed_names: set[str] = set()
     while len(errors) < MAX_FINDINGS:
-        findings = list(islice(_find_errors(FILE, document, ()), MAX_FINDINGS))
+        findings = list(islice(_find_errors(MECHANISM_FILE, document, ()), MAX_FINDINGS))
         if not findings:
             return CheckedTree(document, tuple(errors), frozenset(removed_names))
         errors += _make_errors(findings, document)
@@ -89,8 +89,10 @@ def check_tree_structure(root: Map) -> CheckedTree:
 
 
 STUDIES = "gudgeon-study/"  # prefix of the format of study files
-_REQUIRED_SECTIONS = frozenset(field.name for field in FILE.fields if field.required)
-_OPTIONAL_SECTIONS = frozenset(field.name for field in FILE.fields if not field.required and field.kind not in SCALARS)
+_REQUIRED_SECTIONS = frozenset(field.name for field in MECHANISM_FILE.fields if field.required)
+_OPTIONAL_SECTIONS = frozenset(
+    field.name for field in MECHANISM_FILE.fields if not field.required and field.kind not in SCALARS
+)
 
 
 def check_format(root: Map) -> None:

@@ -50,10 +50,14 @@ class _ComplexConverter:
         Raise ValueError for a line that cannot be converted.
         """
         sections = tuple(
-            Section(section.title, tuple(line for item in section.statements for line in self._convert_line(item)))
+            Section(
+                section.title, tuple(new_line for line in section.statements for new_line in self._convert_line(line))
+            )
             for section in self.source.sections
         )
-        arguments = tuple(argument for item in self.source.arguments for argument in self._convert_argument(item))
+        arguments = tuple(
+            new_argument for argument in self.source.arguments for new_argument in self._convert_argument(argument)
+        )
         converted = replace(
             self.source,
             name=f"{self.source.name}{SUFFIX}",

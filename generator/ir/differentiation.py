@@ -133,9 +133,9 @@ class Tangents:
         return {base: value for base, value in sums.items() if value != 0}
 
     def _store_derivative(self, symbol: sp.Symbol, base: sp.Symbol, value: sp.Expr) -> sp.Expr:
-        """Return the derivative `value` of a symbol by a base symbol, as a new local if it is long.
+        """Return the derivative `value` of a symbol by a base symbol, as a new local unless it is a number or ±symbol.
 
-        The local is called `<symbol>_by_<base>`. A number or ± a symbol is returned unchanged.
+        The local is called `<symbol>_by_<base>`; denominators in it become locals too (`store_powers`).
         """
         if value.is_Number or is_signed_symbol(value):
             return value

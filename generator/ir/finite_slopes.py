@@ -33,7 +33,7 @@ class Slope(sp.Function):
         return differentiate(self.args[0], s)
 
 
-class Upon(sp.Function):
+class FrozenSign(sp.Function):
     """Sign of x as a factor whose derivative is 0 everywhere, also at a change of sign."""
 
     nargs = 1
@@ -43,7 +43,17 @@ class Upon(sp.Function):
         return sp.Integer(0)
 
 
-_SWITCHING_CLASSES = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon, Select, DifferentiableMax, DifferentiableMin)
+_SWITCHING_CLASSES = (
+    sp.Abs,
+    sp.Max,
+    sp.Min,
+    sp.sign,
+    sp.Heaviside,
+    FrozenSign,
+    Select,
+    DifferentiableMax,
+    DifferentiableMin,
+)
 
 
 class NextAbove(sp.Function):
@@ -198,7 +208,8 @@ def differentiate_with_quotients(expression: sp.Expr, symbol: sp.Symbol) -> sp.E
     """Return ∂/∂symbol of a smooth expression in the form that keeps quotients v′/v together.
 
     A `Slope` is differentiated through its first argument, an `UnevaluatedQuotient` inside it. A power vⁿ whose square
-    may overflow gives n vⁿ UnevaluatedQuotient(v′/v). An expression without such terms is differentiated by SymPy.
+    may overflow gives n vⁿ UnevaluatedQuotient(v′/v). A function f(v) whose derivative squares v gives f′(v) v′ with v
+    as an `UnevaluatedQuotient`. An expression without such terms is differentiated by SymPy.
     """
     if isinstance(expression, Slope):
         return differentiate_with_quotients(expression.args[0], symbol)

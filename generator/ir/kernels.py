@@ -243,7 +243,7 @@ class KernelBuilder:
         lines = [s for _, group in self._sections for s in group]
         declared = {line.declared_local for line in lines if line.declared_local}
         expressions = [x for line in lines for x in line.expressions]
-        definitions, inputs = self._resolve_symbols(expressions, declared)
+        definitions, inputs = self._list_definitions_and_inputs(expressions, declared)
         symbol_info = self._symbols.info
         inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].place)]
         structs = (PARAMETERS, LINEARIZATION)
@@ -276,14 +276,13 @@ class KernelBuilder:
         names = self._symbols.find_shorter_names(read_names)
         return Kernel(self._name, self._doc, tuple(arguments), nonempty, status, inline, names=names)
 
-    def _resolve_symbols(
+    def _list_definitions_and_inputs(
         self, expressions: Iterable[sp.Expr], declared_names: set[str]
     ) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
-        """Return (definitions, inputs): symbols to compute from their definitions, and symbols to read.
+        """Return (definitions, inputs): symbols to compute from their definitions, and symbols to read from arguments.
 
         Both are the symbols on which the expressions depend, directly or through definitions, in the order in which
-        they were made. Those in `declared_names`, which the function's own lines define, are left out. Inputs are read
-        from arguments.
+        they were made. Those in `declared_names`, which the function's own lines define, are left out.
         """
         info, definitions = self._symbols.info, self._symbols.definitions
         found: set[sp.Symbol] = set()

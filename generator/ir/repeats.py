@@ -91,13 +91,13 @@ def _replace_symbol_pairs(symbols: Sequence[int], new_symbols: Mapping[Pair, int
     return result
 
 
-def find_line_shape(line: Line, copies: Mapping[str, Line]) -> Hashable:
+def make_line_structure_key(line: Line, copies: Mapping[str, Line]) -> Hashable:
     """Return the structure of a statement or of a test of a pivot, without the names of its operands.
 
     `copies`: the statements that copy arguments, by the name of their local. Lines of one shape usually differ in
     names, numbers of elements and statuses only; a target that merges their code compares the texts.
     """
-    shapes = [_find_shape(expression, copies) for expression in line.expressions]
+    shapes = [_make_structure_key(expression, copies) for expression in line.expressions]
     if isinstance(line, Statement):
         return (_find_place_kind(line.target), type(line.value).__name__, _find_place_kind(line.value), *shapes)
     return (type(line).__name__, *shapes)
@@ -113,11 +113,11 @@ def _find_place_kind(value: object) -> Hashable:
     return (value.base, *(step for step in value.path if isinstance(step, str))) if isinstance(value, Place) else ""
 
 
-def _find_shape(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
-    """Return an expression as nested tuples, with the kind of storage location in place of each symbol.
+def _make_structure_key(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
+    """Return the structure of an expression as nested tuples, with the kind of storage location for each symbol.
 
-    A local that copies no argument gives "". Terms of a sum and factors of a product are in the order of the names of
-    their symbols, as in the text.
+    Expressions with equal keys differ in names only. A local that copies no argument gives "". Terms of a sum and
+    factors of a product are in the order of the names of their symbols, as in the text.
     """
     if expression.is_Symbol:
         if isinstance(expression, PlaceSymbol):
@@ -129,7 +129,7 @@ def _find_shape(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
         return str(expression)
     if expression.is_Add or expression.is_Mul:
         operands = sorted(operands, key=_find_order)
-    return (type(expression).__name__, *[_find_shape(operand, copies) for operand in operands])
+    return (type(expression).__name__, *[_make_structure_key(operand, copies) for operand in operands])
 
 
 @lru_cache(200_000)

@@ -142,14 +142,13 @@ class Series:
 class LinearSystem:
     """A linear system A x = b within a function: A_0 x_k = b_k - A_1 x_{k-1} - ... - A_k x_0, by the factors of A_0.
 
-    `entries` of A by two nodes, the locals `loads` that are b and `unknowns` that are x by node; `title`: the section
-    that
-    factorizes A, of which higher orders need nothing.
+    `entries` of A by two nodes; `right_hand_sides`: the locals that are b, with their nodes; `unknowns`: the symbols of
+    x by node. `title`: the section that factorizes A, of which higher orders need nothing.
     """
 
     title: str
     entries: Mapping[tuple[int, int], sp.Expr]
-    loads: Mapping[str, int]
+    right_hand_sides: Mapping[str, int]
     unknowns: Mapping[int, sp.Symbol]
 
 
@@ -266,21 +265,22 @@ class _SeriesBuilder(Rules):
     def define_local(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
         """Append the local `target` = `value` to both functions and return its symbol.
 
-        A constant is appended to order 0 alone, unless `as_series`. If the local is a right-hand side of the linear
-        system A x = b, its order k is b_k minus Σ A_j x_{k-j}, j = 1 … k. The definitions in `pending` are appended
-        after it.
+        A constant is appended to order 0 alone, unless `as_series`; any other local is recorded as varying with time.
+        If the local is a right-hand side of the linear system A x = b, its order k is b_k minus Σ A_j x_{k-j}, j = 1 …
+        k. A value that equals that of an earlier local is expanded as this local. The definitions in `pending` are
+        appended after it.
         """
         symbol = sp.Symbol(target, real=True)
-        loads = self._linear.loads if self._linear else {}
-        if self.is_constant_in_time(value) and not (as_series or target in loads):
+        right_hand_sides = self._linear.right_hand_sides if self._linear else {}
+        if self.is_constant_in_time(value) and not (as_series or target in right_hand_sides):
             self._values.append((self._title, Statement(target, value)))
             return symbol
-        if target not in loads:  # which are equal at order 0 alone
+        if target not in right_hand_sides:  # which are equal at order 0 alone
             value, definition = self.symbol_by_value.get(value, value), value
             self.symbol_by_value.setdefault(definition, symbol)
         order_zero, order_k = self._expand_angle_difference(value, symbol) or self.expand_orders(value, symbol)
-        if self._linear and target in loads:
-            order_k -= self._sum_lower_orders(self._linear, loads[target])
+        if self._linear and target in right_hand_sides:
+            order_k -= self._sum_lower_orders(self._linear, right_hand_sides[target])
         self.varying.add(target)
         self._values.append((self._title, Statement(target, order_zero)))
         self._terms.append((self._title, Statement(target, order_k)))
@@ -315,7 +315,7 @@ class _SeriesBuilder(Rules):
         angle, partner_name, sign = self._angle_differences[symbol.name]
         return value, sign * self.integrate_product(self.define_value(angle), sp.Symbol(partner_name, real=True))
 
-    def define_partner(self, value: sp.Expr) -> sp.Symbol:
+    def define_companion_function(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of `value`, a function in the derivative of another one, such as cos u for sin u.
 
         It is defined at the first use, under its name in the kernel if it has one.
@@ -335,7 +335,7 @@ class _SeriesBuilder(Rules):
         products, n_products = list[Product](), -1
         while n_products < len(products):  # a sum that is read needs its factors, and they need other sums
             n_products = len(products)
-            terms = _prune_lines([*self._terms, *_make_factor_stores(products)])
+            terms = _prune_lines([*self._terms, *_make_convolution_operand_stores(products)])
             read_keys = {
                 find_value_key(s)
                 for _, line in terms
@@ -380,11 +380,12 @@ def _make_series_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]
     return values, (*order, *STATE, PARAMETERS, *lower_orders, *rates, *factors)
 
 
-def _make_factor_stores(products: Sequence[Product]) -> list[SectionLine]:
+def _make_convolution_operand_stores(products: Sequence[Product]) -> list[SectionLine]:
     """Return the lines, with their title, that store the factors of all sums S_k for higher orders.
 
-    S_k is a convolution of two series. The left and right factors fill rows of ROW_LENGTH elements; the last one may be
-    shorter.
+    S_k is a convolution of two series. The left factors of all sums fill rows of ROW_LENGTH elements of one array, the
+    right factors those of another; the last row may be shorter. Stored is the coefficient of order k of a factor; for a
+    rate it is multiplied by k.
     """
 
     def make_coefficient(factor: Factor) -> sp.Expr:
@@ -403,7 +404,7 @@ def _make_factor_stores(products: Sequence[Product]) -> list[SectionLine]:
 def _prune_lines(lines: list[SectionLine]) -> list[SectionLine]:
     """Return the pairs (section title, line) without lines that define a local which no later line reads."""
     used_ids = {id(line) for line in remove_unused_lines([line for _, line in lines], set())}
-    return [item for item in lines if id(item[1]) in used_ids]
+    return [(title, line) for title, line in lines if id(line) in used_ids]
 
 
 def _group_sections(lines: Iterable[SectionLine]) -> tuple[Section, ...]:

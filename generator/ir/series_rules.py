@@ -85,7 +85,7 @@ class Rules(ABC):
         """Define a local and return its symbol; `as_series`: as a series even if it is constant."""
 
     @abstractmethod
-    def define_partner(self, value: sp.Expr) -> sp.Symbol:
+    def define_companion_function(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of another function of the same argument."""
 
     def is_constant_in_time(self, value: sp.Basic) -> bool:
@@ -160,13 +160,13 @@ class Rules(ABC):
             factor for factor in varying if factor.is_Pow and factor.exp.is_number and factor.exp.is_negative
         ]
         denominators += [self.reciprocals[factor] ** -1 for factor in varying if factor in self.reciprocals]
-        numerators = self._combine_factors(
+        numerators = self._reduce_to_two_factors(
             [factor for factor in varying if factor not in denominators and factor not in self.reciprocals]
         )
         if denominators and numerators:
             numerator, denominator = (
-                self._combine_symbols(numerators),
-                self._combine_symbols(self._combine_factors([1 / factor for factor in denominators])),
+                self._define_product(numerators),
+                self._define_product(self._reduce_to_two_factors([1 / factor for factor in denominators])),
             )
             if constant != 1 or symbol_of_value is None:
                 numerators = [self.define_value(numerator / denominator)]
@@ -175,7 +175,7 @@ class Rules(ABC):
         elif denominators:
             numerators = [
                 self.define_value(
-                    1 / self._combine_symbols(self._combine_factors([1 / factor for factor in denominators]))
+                    1 / self._define_product(self._reduce_to_two_factors([1 / factor for factor in denominators]))
                 )
             ]
         if len(numerators) == 1:
@@ -187,7 +187,7 @@ class Rules(ABC):
             make_order_zero_symbol(a) * b + make_order_zero_symbol(b) * a + lower_orders
         )
 
-    def _combine_factors(self, values: list[sp.Expr]) -> list[sp.Symbol]:
+    def _reduce_to_two_factors(self, values: list[sp.Expr]) -> list[sp.Symbol]:
         """Return at most two symbols whose product is that of the values; a single sum is returned as it is.
 
         Integer powers up to 4 are repeated factors, higher ones squares of lower ones; new locals hold partial
@@ -208,7 +208,7 @@ class Rules(ABC):
             symbols = [self.define_value(symbols[0] * symbols[1]), *symbols[2:]]
         return symbols
 
-    def _combine_symbols(self, parts: list[sp.Symbol]) -> sp.Symbol:
+    def _define_product(self, parts: list[sp.Symbol]) -> sp.Symbol:
         """Return one symbol for the product of the symbols `parts`; it is defined as a local if there are several."""
         return self.define_value(sp.Mul(*parts))
 
@@ -350,7 +350,7 @@ def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of
         if w == symbol_of_value**2:
             w = rules.postpone_square_definition(symbol_of_value)
         elif w.is_Function:
-            w = rules.define_partner(w)
+            w = rules.define_companion_function(w)
         elif not w.is_Symbol and w != 1:
             w = rules.define_value(w)
         terms.append(coefficient * (u if w == 1 else rules.integrate_product(u, w)))

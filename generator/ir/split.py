@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.repeats import divide_into_repeats, find_line_shape
+from gudgeon.generator.ir.repeats import divide_into_repeats, make_line_structure_key
 from gudgeon.generator.ir.signatures import (
     PARAMETERS,
     Access,
@@ -63,21 +63,21 @@ def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_
             readers[operand].append(k)
     order: list[int] = []
     n_missing = [len(needed) for needed in dependencies]
-    is_placed = [False] * len(read_names)
+    is_scheduled = [False] * len(read_names)
 
     def append_with_ready_readers(first_index: int) -> None:
         """Append statement `first_index` to the order, then all statements whose last missing operand it defines."""
         ready_indices = [first_index]
         while ready_indices:
             k = ready_indices.pop()
-            if is_placed[k]:
+            if is_scheduled[k]:
                 continue
-            is_placed[k] = True
+            is_scheduled[k] = True
             order.append(k)
             for reader in readers[k]:
                 n_missing[reader] -= 1
             ready_indices += [
-                reader for reader in reversed(readers[k]) if not n_missing[reader] and not is_placed[reader]
+                reader for reader in reversed(readers[k]) if not n_missing[reader] and not is_scheduled[reader]
             ]
 
     roots = [k for k, following in enumerate(readers) if not following]
@@ -85,12 +85,12 @@ def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_
         pending = [root]
         while pending:
             k = pending[-1]
-            operands = [operand for operand in sorted(dependencies[k], reverse=True) if not is_placed[operand]]
-            if operands and not is_placed[k]:
+            operands = [operand for operand in sorted(dependencies[k], reverse=True) if not is_scheduled[operand]]
+            if operands and not is_scheduled[k]:
                 pending += operands
                 continue
             pending.pop()
-            if not is_placed[k]:
+            if not is_scheduled[k]:
                 append_with_ready_readers(k)
     return order
 
@@ -122,17 +122,17 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     """
     if sum(len(section.statements) for section in kernel.sections) <= _MAX_LINES:
         return (kernel,)
-    items, copies = _list_lines(kernel)
-    pieces = _divide_lines(items, {name: item.line for name, item in copies.items()})
+    titled_lines, copies = _list_lines(kernel)
+    pieces = _divide_lines(titled_lines, {name: titled_line.line for name, titled_line in copies.items()})
     if not any(map(_is_part, pieces)):
         return (kernel,)
     added_arguments = (*_list_constant_locals(kernel), *_list_local_arrays(kernel))
-    array_name = _find_unused_name("passed", items)
+    array_name = _find_unused_name("passed", titled_lines)
     index_of_passed = _number_passed_locals(pieces)
     splitter = _Splitter(kernel, index_of_passed, array_name, copies, added_arguments)
-    pieces, functions = _move_dependent_rows(pieces, splitter)
+    pieces, functions = _outline_dependent_row_terms(pieces, splitter)
     title = "values that pass between the parts"
-    main_items = [
+    main_lines = [
         TitledLine(title, Declare(Number.REAL, array_name, (max(len(index_of_passed), 1),)), frozenset(), False)
     ]
     parts: list[Kernel] = []
@@ -140,22 +140,22 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     available: set[str] = set()  # locals of the calling function
     for piece, later_read_names in zip(pieces, _find_names_read_later(pieces), strict=True):
         if not _is_part(piece):
-            main_items += piece
-            available |= {item.defines for item in piece}
+            main_lines += piece
+            available |= {titled_line.defines for titled_line in piece}
             continue
-        passed_reads = {name_ for item in piece for name_ in item.reads if name_ in index_of_passed}
-        defined = {item.defines for item in piece}
-        main_items += [
+        passed_reads = {name_ for titled_line in piece for name_ in titled_line.reads if name_ in index_of_passed}
+        defined = {titled_line.defines for titled_line in piece}
+        main_lines += [
             splitter.make_store_line(name)
             for name in sorted((passed_reads - defined) & available - stored_names, key=index_of_passed.__getitem__)
         ]
         stored_names |= passed_reads & available
         name = f"{kernel.name}_part_{len(parts) + 1}"
         parts.append(splitter.make_part(name, piece))
-        main_items += splitter.make_call_lines(name, piece, later_read_names)
+        main_lines += splitter.make_call_lines(name, piece, later_read_names)
         available |= defined & later_read_names & index_of_passed.keys()
         stored_names |= defined & index_of_passed.keys()
-    return (*parts, *functions, replace(kernel, sections=_group_sections(_insert_argument_copies(main_items, copies))))
+    return (*parts, *functions, replace(kernel, sections=_group_sections(_insert_argument_copies(main_lines, copies))))
 
 
 def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[frozenset[str]]:
@@ -166,7 +166,9 @@ def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[froze
     later_read_names = [frozenset[str]()]
     for piece in reversed(pieces[1:]):
         names = later_read_names[-1]
-        later_read_names.append(names if _is_part(piece) else names.union(*(item.reads for item in piece)))
+        later_read_names.append(
+            names if _is_part(piece) else names.union(*(titled_line.reads for titled_line in piece))
+        )
     return later_read_names[::-1]
 
 
@@ -176,28 +178,28 @@ def _list_lines(kernel: Kernel) -> tuple[list[TitledLine], dict[str, TitledLine]
     Each part makes its own copy where it reads one. A line is movable if it is a statement or a test of a pivot, stands
     before any jump, and reads no name that only unmovable lines know.
     """
-    titled_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
+    section_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
     constant |= {argument.name for argument in _list_constant_locals(kernel)}
-    known_names = {line.declared_local for _, line in titled_lines} | constant
+    known_names = {line.declared_local for _, line in section_lines} | constant
     known_names |= {argument.name for argument in (*kernel.arguments, *_list_local_arrays(kernel))}
     unmovable_names = {
-        name for _, line in titled_lines if not _is_movable_line(line) for name in line.reads | line.writes
+        name for _, line in section_lines if not _is_movable_line(line) for name in line.reads | line.writes
     } - known_names
-    items: list[TitledLine] = []
+    titled_lines: list[TitledLine] = []
     copies: dict[str, TitledLine] = {}
     is_after_jump = False
-    for title, line in titled_lines:
+    for title, line in section_lines:
         reads = line.reads | line.writes
-        item = TitledLine(
+        titled_line = TitledLine(
             title, line, reads, _is_movable_line(line) and not is_after_jump and not reads & unmovable_names
         )
         is_after_jump = is_after_jump or isinstance(line, Jump)
         if _find_copied_argument(line) in constant:
-            copies[item.defines] = item
+            copies[titled_line.defines] = titled_line
         else:
-            items.append(item)
-    return items, copies
+            titled_lines.append(titled_line)
+    return titled_lines, copies
 
 
 def _is_movable_line(line: Line) -> bool:
@@ -230,7 +232,7 @@ def _list_local_arrays(kernel: Kernel) -> list[Argument]:
     return [make_output_argument(line.name) for line in lines if line.type is Number.REAL and len(line.sizes) == 1]
 
 
-def _divide_lines(items: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
+def _divide_lines(titled_lines: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
     """Return the lines in pieces: each run of movable lines divided into parts, other lines between them.
 
     A part has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES becomes unmovable and stays in the
@@ -238,12 +240,12 @@ def _divide_lines(items: Sequence[TitledLine], copies: Mapping[str, Line]) -> li
     the name of their local.
     """
     pieces = []
-    for movable, group in groupby(items, key=lambda item: item.movable):
+    for movable, group in groupby(titled_lines, key=lambda titled_line: titled_line.movable):
         lines = _order_lines(list(group))
         if movable and len(lines) >= _MIN_PART_LINES:
             pieces += _divide_movable_lines(lines, copies)
         else:
-            pieces.append([replace(item, movable=False) for item in lines])
+            pieces.append([replace(titled_line, movable=False) for titled_line in lines])
     return pieces
 
 
@@ -254,7 +256,7 @@ def _divide_movable_lines(lines: Sequence[TitledLine], copies: Mapping[str, Line
     """
     pieces = []
     first = 0
-    shapes = [find_line_shape(item.line, copies) for item in lines]
+    shapes = [make_line_structure_key(titled_line.line, copies) for titled_line in lines]
     for length, repeats in divide_into_repeats(shapes, _MAX_REPEATED_LINES, _MIN_REPEATED_LINES):
         n_pieces = 1 if repeats else -(-length // _MAX_PART_LINES)
         size = -(-length // n_pieces)
@@ -273,12 +275,14 @@ def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, i
 
     Indices follow the order of computation. Two pieces that both stay in the calling function pass nothing.
     """
-    piece_of_local = {item.defines: k for k, piece in enumerate(pieces) for item in piece if item.defines}
+    piece_of_local = {
+        titled_line.defines: k for k, piece in enumerate(pieces) for titled_line in piece if titled_line.defines
+    }
     passed_names = {
         name
         for k, piece in enumerate(pieces)
-        for item in piece
-        for name in item.reads
+        for titled_line in piece
+        for name in titled_line.reads
         if name in piece_of_local
         and piece_of_local[name] != k
         and (_is_part(piece) or _is_part(pieces[piece_of_local[name]]))
@@ -286,29 +290,32 @@ def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, i
     return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
 
 
-def _move_dependent_rows(
+def _outline_dependent_row_terms(
     pieces: Sequence[Sequence[TitledLine]], splitter: _Splitter
 ) -> tuple[list[list[TitledLine]], list[Kernel]]:
-    """Return the pieces with the forces and right-hand sides for a vanished pivot computed by a function, and it.
+    """Return (pieces, new functions); a new function computes the forces and right-hand sides for a vanished pivot.
 
     In the calling function each of them would be a local that is alive over the calls of all parts, from any of which
     the code may be reached. Nothing is moved if one reads more than arguments and results of parts.
     """
-    available = {name for piece in pieces if _is_part(piece) for name in (item.defines for item in piece)}
+    available = {name for piece in pieces if _is_part(piece) for name in (titled_line.defines for titled_line in piece)}
     available &= splitter.index_of_passed.keys()
     available |= splitter.argument_copies.keys() | {argument.name for argument in splitter.kernel.arguments}
     functions: list[Kernel] = []
 
-    def move(item: TitledLine) -> TitledLine:
-        """Return a line with a call in place of the expressions that the new function computes."""
-        line = item.line
+    def replace_by_call(titled_line: TitledLine) -> TitledLine:
+        """Return a line of redundant equations with a call in place of the expressions that the new function computes.
+
+        Other lines are returned unchanged. The new function is appended to `functions`.
+        """
+        line = titled_line.line
         if not (isinstance(line, SolveDependentRows) and line.force):
-            return item
+            return titled_line
         arrays = {name: make_output_argument(name) for name in ("force", "gamma_stab")}
         values = zip(arrays.values(), (line.force, line.rhs), strict=True)
         stores = [Statement(array[k], value) for array, expressions in values for k, value in enumerate(expressions)]
         if not all(store.reads <= available for store in stores):
-            return item
+            return titled_line
         name = f"{splitter.kernel.name}_dependent"
         kernel = replace(splitter.kernel, arguments=(*splitter.kernel.arguments, *arrays.values()))
         lines = [TitledLine("", store, store.reads | store.writes, True) for store in stores]
@@ -316,30 +323,32 @@ def _move_dependent_rows(
         functions.append(new.make_part(name, lines))
         call = Call(name, tuple(Place(a.name) for a in new.list_arguments(lines)), (Place(splitter.array_name),))
         new_line = replace(line, force=(), rhs=(), call=call)
-        return replace(item, line=new_line, reads=new_line.reads)
+        return replace(titled_line, line=new_line, reads=new_line.reads)
 
-    return [[move(item) for item in piece] for piece in pieces], functions
+    return [[replace_by_call(titled_line) for titled_line in piece] for piece in pieces], functions
 
 
-def _find_unused_name(name: str, items: Sequence[TitledLine]) -> str:
-    """Return the name with underscores appended until no line of `items` reads or defines it."""
-    used_names = {read_name for item in items for read_name in (*item.reads, item.defines)}
+def _find_unused_name(name: str, titled_lines: Sequence[TitledLine]) -> str:
+    """Return the name with underscores appended until no line of `titled_lines` reads or defines it."""
+    used_names = {read_name for titled_line in titled_lines for read_name in (*titled_line.reads, titled_line.defines)}
     while name in used_names:
         name += "_"
     return name
 
 
-def _order_lines(items: list[TitledLine]) -> list[TitledLine]:
+def _order_lines(titled_lines: list[TitledLine]) -> list[TitledLine]:
     """Return the lines in an order in which each is near those that read its result.
 
     They are returned unchanged if a line reads an array that one of them writes.
     """
-    written_arrays = frozenset().union(*(item.line.writes for item in items))
-    if any(written_arrays & item.line.reads for item in items):
-        return items
+    written_arrays = frozenset().union(*(titled_line.line.writes for titled_line in titled_lines))
+    if any(written_arrays & titled_line.line.reads for titled_line in titled_lines):
+        return titled_lines
     return [
-        items[k]
-        for k in order_statements_near_readers([item.reads for item in items], [item.defines for item in items])
+        titled_lines[k]
+        for k in order_statements_near_readers(
+            [titled_line.reads for titled_line in titled_lines], [titled_line.defines for titled_line in titled_lines]
+        )
     ]
 
 
@@ -348,19 +357,19 @@ def _make_load(name: str, place: Place) -> TitledLine:
     return TitledLine("values from the part", Statement(name, place), place.names, False)
 
 
-def _insert_argument_copies(items: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
+def _insert_argument_copies(titled_lines: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
     """Return the lines of the calling function with the copies of arguments inserted that it reads.
 
     Arguments are copied first of all, elements of arrays of sines and cosines after the line that fills the array. The
     reading line cannot copy them, because it may be in a block or after a label.
     """
-    read_names = frozenset[str]().union(*(item.reads for item in items))
-    needed_copies = [item for name, item in copies.items() if name in read_names]
-    filled_arrays = {name for item in items for name in _find_filled_arrays(item.line)}
-    result = [item for item in needed_copies if not item.reads & filled_arrays]
-    for item in items:
-        result.append(item)
-        if filled := _find_filled_arrays(item.line):
+    read_names = frozenset[str]().union(*(titled_line.reads for titled_line in titled_lines))
+    needed_copies = [titled_line for name, titled_line in copies.items() if name in read_names]
+    filled_arrays = {name for titled_line in titled_lines for name in _find_filled_arrays(titled_line.line)}
+    result = [titled_line for titled_line in needed_copies if not titled_line.reads & filled_arrays]
+    for titled_line in titled_lines:
+        result.append(titled_line)
+        if filled := _find_filled_arrays(titled_line.line):
             result += [copy_ for copy_ in needed_copies if copy_.reads & filled]
     return result
 
@@ -382,7 +391,7 @@ class _Splitter:
 
     def list_arguments(self, piece: Sequence[TitledLine]) -> tuple[Argument, ...]:
         """Return the arguments of a part without the array of passed values: of the added ones those that it reads."""
-        names = frozenset[str]().union(*(item.reads for item in piece))
+        names = frozenset[str]().union(*(titled_line.reads for titled_line in piece))
         names = names.union(*(self.argument_copies[name].reads for name in names & self.argument_copies.keys()))
         return (*self.kernel.arguments, *(argument for argument in self.added_arguments if argument.name in names))
 
@@ -401,21 +410,25 @@ class _Splitter:
         It reads values of other parts from the array of passed values, executes its lines, and stores values that
         others read. It returns a status if it tests a pivot.
         """
-        defined = {item.defines for item in piece}
-        has_test = any(isinstance(item.line, Guard) for item in piece)
+        defined = {titled_line.defines for titled_line in piece}
+        has_test = any(isinstance(titled_line.line, Guard) for titled_line in piece)
         lines: list[TitledLine] = []
         known_names = set(defined)
-        for item in piece:
-            for name_ in sorted(item.reads - known_names):
+        for titled_line in piece:
+            for name_ in sorted(titled_line.reads - known_names):
                 if name_ in self.argument_copies or name_ in self.index_of_passed:
                     reading_line = (
                         self.argument_copies[name_] if name_ in self.argument_copies else self.make_load_line(name_)
                     )
-                    lines.append(replace(reading_line, title=item.title))
+                    lines.append(replace(reading_line, title=titled_line.title))
                     known_names.add(name_)
-            lines.append(replace(item, line=replace(item.line, jumps=False)) if isinstance(item.line, Guard) else item)
-            if item.defines in self.index_of_passed:
-                lines.append(replace(self.make_store_line(item.defines), title=item.title))
+            lines.append(
+                replace(titled_line, line=replace(titled_line.line, jumps=False))
+                if isinstance(titled_line.line, Guard)
+                else titled_line
+            )
+            if titled_line.defines in self.index_of_passed:
+                lines.append(replace(self.make_store_line(titled_line.defines), title=titled_line.title))
         end_lines = [TitledLine("", Return(), frozenset(), False)] if has_test else []
         return Kernel(
             name,
@@ -435,8 +448,8 @@ class _Splitter:
         """
         arguments = tuple(Place(argument.name) for argument in self.list_arguments(piece))
         call = Call(name, arguments, (Place(self.array_name),))
-        tests = [item.line for item in piece if isinstance(item.line, Guard)]
-        loaded = {item.defines for item in piece} & later_read_names & self.index_of_passed.keys()
+        tests = [titled_line.line for titled_line in piece if isinstance(titled_line.line, Guard)]
+        loaded = {titled_line.defines for titled_line in piece} & later_read_names & self.index_of_passed.keys()
         loads = [self.make_load_line(local) for local in sorted(loaded, key=self.index_of_passed.__getitem__)]
         lines: list[Line] = [call]
         status_lines: list[Line] = []
@@ -452,7 +465,10 @@ class _Splitter:
         ]
 
 
-def _group_sections(items: Sequence[TitledLine]) -> tuple[Section, ...]:
+def _group_sections(titled_lines: Sequence[TitledLine]) -> tuple[Section, ...]:
     """Return the lines as sections; successive lines with the same title form one section."""
-    grouped = ((title, tuple(item.line for item in group)) for title, group in groupby(items, key=lambda i: i.title))
+    grouped = (
+        (title, tuple(titled_line.line for titled_line in group))
+        for title, group in groupby(titled_lines, key=lambda i: i.title)
+    )
     return tuple(Section(title, statements) for title, statements in grouped)

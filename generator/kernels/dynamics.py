@@ -112,12 +112,12 @@ def describe_elimination(kkt: KKT) -> list[str]:
     return [heading, *("    " + line.replace("\0", " ") for line in textwrap.wrap(f"{text}.", 104))] if blocks else []
 
 
-def format_coordinate_name(meaning: str) -> str:
+def format_coordinate_name(name_in_symbol_table: str) -> str:
     """Return the name of a coordinate for comments: "rod.x" unchanged, "rod" (a tree coordinate) as "rod.theta".
 
-    `meaning`: the name of the coordinate in the symbol table.
+    `name_in_symbol_table`: the name under which the symbol table stores the coordinate.
     """
-    return meaning if "." in meaning else f"{meaning}.theta"
+    return name_in_symbol_table if "." in name_in_symbol_table else f"{name_in_symbol_table}.theta"
 
 
 def _append_event_functions(model: Model, builder: KernelBuilder) -> None:
@@ -233,9 +233,9 @@ def _append_rigid_contact_accelerations(
     """
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
-            outward = _compute_outward_acceleration(system, clearance, clearance.wall, solution)
+            acceleration = _compute_wall_penetration_acceleration(system, clearance, clearance.wall, solution)
             builder.append_store(
-                RHS["clearance"][index]["half_square_second_derivative"], outward, "at a wall delta'' itself"
+                RHS["clearance"][index]["half_square_second_derivative"], acceleration, "at a wall delta'' itself"
             )
         elif clearance.rigid:
             journal_acceleration, bearing_acceleration = (
@@ -248,7 +248,7 @@ def _append_rigid_contact_accelerations(
             builder.append_store(RHS["clearance"][index]["half_square_second_derivative"], value, "e . e'' + e' . e'")
 
 
-def _compute_outward_acceleration(
+def _compute_wall_penetration_acceleration(
     system: System, clearance: Clearance, wall: Wall, solution: Mapping[int, sp.Expr]
 ) -> sp.Expr:
     """Return δ̈ at a wall of a guide, from the accelerations in `solution` by number of the coordinate.
@@ -289,7 +289,7 @@ def _append_dependent_rows(builder: KernelBuilder, kkt: KKT, right_sides: Mappin
 
 
 def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
-    """Append the powers in W of all drives, of force elements with friction, and of joints with play, to `rhs`.
+    """Append the powers in W of all drives, all force elements with their friction, and joints with play to `rhs`.
 
     A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.
     `prescribed_forces`: the generalized loads on those coordinates by name.

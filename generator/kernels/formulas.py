@@ -23,7 +23,7 @@ _MEANINGS = {
 }
 
 
-class _Plain(StrPrinter):
+class _PlainTextPrinter(StrPrinter):
     """Printer of expressions in the notation of comments: min, max, abs, branches as `where(g < 0, a, b)`."""
 
     def _print_Max(self, e: sp.Expr) -> str:
@@ -60,7 +60,7 @@ def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[s
         for s, name in name_of_symbol.items()
         if s.name not in {*variables, *law.equations_by_name}
     }
-    printer = _Plain({"full_prec": False, "sympy_integers": False})
+    printer = _PlainTextPrinter({"full_prec": False, "sympy_integers": False})
     lines: list[str] = []
     for name, step in law.equations_by_name.items():
         text = printer.doprint(sp.sympify(step).xreplace(symbol_map)).replace("**", "^")

@@ -19,7 +19,7 @@ from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.kernels.formulas import format_formulas
 from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions, name_joint_parameters
 from gudgeon.generator.kinds.laws.law import USER_LAWS
-from gudgeon.generator.solvers.contact_slopes import (
+from gudgeon.generator.solvers.contact_derivatives import (
     DEPTH_STATEMENT,
     make_dry_derivative_kernel,
     make_film_derivative_kernel,
@@ -135,15 +135,15 @@ Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
 _NORMAL_AT_CENTRE = {contact.n_x: sp.Integer(1), contact.n_y: sp.Integer(0)}
 _IS_OFF_CENTRE, _INVERSE_E = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
-_GUARDED_NORMAL = {
+_CONDITIONAL_NORMAL = {
     contact.n_x: Conditional(_IS_OFF_CENTRE, contact.e_x * _INVERSE_E, sp.Integer(1)),
     contact.n_y: Conditional(_IS_OFF_CENTRE, contact.e_y * _INVERSE_E, sp.Integer(0)),
 }
-_HAS_SLANT = Test(contact.slant, ">", (0.0,))
-_GUARDED_CONTOUR = {
-    contact.u_x: _GUARDED_NORMAL[contact.n_x],
-    contact.u_y: _GUARDED_NORMAL[contact.n_y],
-    contact.steep: Conditional(_IS_OFF_CENTRE, contact.slant * _INVERSE_E, sp.Integer(1)),
+_HAS_GRADIENT = Test(contact.scaled_gradient_length, ">", (0.0,))
+_CONDITIONAL_CONTOUR = {
+    contact.u_x: _CONDITIONAL_NORMAL[contact.n_x],
+    contact.u_y: _CONDITIONAL_NORMAL[contact.n_y],
+    contact.gradient_length: Conditional(_IS_OFF_CENTRE, contact.scaled_gradient_length * _INVERSE_E, sp.Integer(1)),
 }
 
 
@@ -165,7 +165,7 @@ class JointFunctions:
     @property
     def normal_law_extra_variables(self) -> tuple[str, ...]:
         """Return the names of the variables that the normal law reads in addition to δ and δ̇/δ̇⁻."""
-        return self.clearance.normal.variables_outside_role if self.clearance.normal else ()
+        return self.clearance.normal.optional_variables if self.clearance.normal else ()
 
     @property
     def normal_law_argument_places(self) -> tuple[Place, ...]:
@@ -188,73 +188,74 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     """
     name, film = clearance.name, clearance.film
 
-    def make_guarded_statements(equations: Sequence[Assignment]) -> Statements:
-        """Return the statements of equations, with guards at the centre and with frozen branches."""
-        return _make_statements(model, equations, name, _guard_values(clearance, equations))
+    def make_contact_statements(equations: Sequence[Assignment]) -> Statements:
+        """Return the statements of equations, with conditional values at the centre and with frozen branches."""
+        return _make_joint_statements(model, equations, name, _make_conditional_values(clearance, equations))
 
     laws, parts = make_law_calls(model, clearance, shared_functions), {}
     if clearance.normal is not None:
-        parts["before_dry"] = make_guarded_statements(
+        parts["before_dry"] = make_contact_statements(
             [replace_stored_speed(step) for step in contact.make_lever_arm_equations(clearance)]
         )
-        parts["contour_normal_force"] = make_guarded_statements(contact.make_contour_normal_force(clearance))
-        parts["after_dry"] = make_guarded_statements(contact.make_dry_moment_equations(clearance))
+        parts["contour_normal_force"] = make_contact_statements(contact.make_contour_normal_force(clearance))
+        parts["after_dry"] = make_contact_statements(contact.make_dry_moment_equations(clearance))
     if film is not None:
-        parts["before_film"] = make_guarded_statements(contact.make_film_input_equations(clearance, film))
-        parts["after_film"] = make_guarded_statements(contact.make_film_moment_equations(film))
-    gap = make_guarded_statements(contact.make_gap_equations(clearance))
+        parts["before_film"] = make_contact_statements(contact.make_film_input_equations(clearance, film))
+        parts["after_film"] = make_contact_statements(contact.make_film_moment_equations(film))
+    gap = make_contact_statements(contact.make_gap_equations(clearance))
     if film is not None and clearance.normal is not None:
         parts["share"] = (
             *((DEPTH_STATEMENT,) if clearance.mixed else ()),
-            *make_guarded_statements(contact.make_blend_equations(clearance, is_closed=True)),
+            *make_contact_statements(contact.make_blend_equations(clearance, is_closed=True)),
         )
     indices = [switch.index for switch in model.symbols.switches.list_switches(name)]
     switch_range = range(min(indices, default=0), max(indices, default=-1) + 1)
     return JointFunctions(clearance, laws, gap, switch_indices=switch_range, **parts)
 
 
-def _guard_values(clearance: Clearance, equations: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
+def _make_conditional_values(clearance: Clearance, equations: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
     """Return conditional values, by symbol, that replace those `equations` that divide by the eccentricity e.
 
     At e = 0 the normal is (1, 0). A flat wall needs none: the result is empty. A contour needs further ones, for its
     normal and the rate of its angle.
     """
     if not clearance.contour:
-        return {} if clearance.wall else _GUARDED_NORMAL
+        return {} if clearance.wall else _CONDITIONAL_NORMAL
     value = {equation.symbol: equation.value for equation in equations}
-    guarded = {
-        symbol: Conditional(_HAS_SLANT, value[symbol], centre_value)
+    conditional_values = {
+        symbol: Conditional(_HAS_GRADIENT, value[symbol], centre_value)
         for symbol, centre_value in _NORMAL_AT_CENTRE.items()
         if symbol in value
     }
     contour_rate = value.get(contact.beta_rate)
     if contour_rate is not None:
         relative_motion = (contour_rate + contact.omega_i) * contact.e
-        guarded[contact.beta_rate] = Conditional(
+        conditional_values[contact.beta_rate] = Conditional(
             _IS_OFF_CENTRE, relative_motion * _INVERSE_E - contact.omega_i, -contact.omega_i
         )
-    return _GUARDED_CONTOUR | guarded
+    return _CONDITIONAL_CONTOUR | conditional_values
 
 
-def _make_statements(
-    model: Model, equations: Sequence[Assignment], owner: str, guards: Mapping[sp.Symbol, Conditional]
+def _make_joint_statements(
+    model: Model, equations: Sequence[Assignment], joint_name: str, conditional_values: Mapping[sp.Symbol, Conditional]
 ) -> Statements:
-    """Return equations as statements that read parameters from their struct and use the frozen branches of a joint.
+    """Return equations of a contact as statements that read parameters from their struct and use frozen branches.
 
-    `guards`: conditional values, by symbol, that replace those of the equations; with any guards, a statement
-    "inverse_e" = 1/e follows that of e. `owner`: the name of the joint.
+    `conditional_values`, by symbol, replace the values of equations that divide by the eccentricity e; with any of
+    them, a statement "inverse_e" = 1/e follows that of e. `joint_name`: the name of the joint.
     """
     statements = []
     for equation in equations:
         statements.append(
             Statement(
-                equation.symbol.name, guards.get(equation.symbol) or read_parameters_from_struct(model, equation.value)
+                equation.symbol.name,
+                conditional_values.get(equation.symbol) or read_parameters_from_struct(model, equation.value),
             )
         )
-        if equation.symbol == contact.e and guards:  # the contour has a centre
+        if equation.symbol == contact.e and conditional_values:  # the contour has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
-    (section,) = freeze_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
-    return tuple(item for item in section.statements if isinstance(item, Statement))
+    (section,) = freeze_branches(model.symbols.switches, joint_name, [Section("", tuple(statements))])
+    return tuple(line for line in section.statements if isinstance(line, Statement))
 
 
 def make_derivative_calls(
@@ -274,13 +275,13 @@ def make_derivative_calls(
     names_of_parameters = name_joint_parameters(model, clearance)
     return {
         part: shared_functions.add_call(
-            replace(kernel, name=_make_slope_name(clearance, part)), names_of_parameters, clearance.label
+            replace(kernel, name=_make_derivative_name(clearance, part)), names_of_parameters, clearance.label
         )
         for part, kernel in kernels.items()
     }
 
 
-def _make_slope_name(clearance: Clearance, part: str) -> str:
+def _make_derivative_name(clearance: Clearance, part: str) -> str:
     """Return the C name of the derivatives of one part of a joint's force, made from the names of its laws.
 
     part: "film", "dry" or "share", the fraction of the dry contact.

@@ -49,7 +49,7 @@ MAX_COORDINATES_FOR_LANES = 900  # 192 take a compiler 50 s; for larger linkages
 
 
 @dataclass(frozen=True)
-class Integrated:
+class IntegratedSystem:
     """The system that is integrated, with its KKT elimination; `angles`: 1 for each angle, 0 for each length."""
 
     system: System
@@ -70,13 +70,13 @@ class Integrated:
 class TreeFunctions:
     """The functions of the reduced formulation; `conversions` to and from absolute coordinates.
 
-    `unpaired_kernels`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after.
+    `unvectorized_kernels`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after.
     `has_fallback`: where a pivot vanishes, the absolute formulation solves.
     """
 
     system: TreeSystem
     conversions: tuple[Kernel, ...]
-    unpaired_kernels: tuple[Kernel, ...]
+    unvectorized_kernels: tuple[Kernel, ...]
     kernels: tuple[Kernel, ...]
     has_fallback: bool
     driven_loop_kernels: DrivenLoopKernels | None
@@ -92,20 +92,21 @@ class TreeFunctions:
 
 
 @dataclass(frozen=True)
-class Methods:
-    """The functions that integrators need in addition to the right-hand side.
+class IntegratorFunctions:
+    """Represent the functions of a scene for methods of integration, in addition to its right-hand side.
 
     `derivative_calls`: calls of the derivatives of contact forces by joint with play and part, of the functions
     `derivative_kernels`. `correction_kernel` computes a step of the projection onto the constraints, for the reduced
-    formulation with paired sines; `unpaired_correction_kernel` is the same before sines are paired. `gains`: gains of
-    stabilization by name, 2α and β² of Baumgarte's terms and 2α of a sticking friction, as far as they exist.
+    formulation with sines and cosines in vectors; `unvectorized_correction_kernel` is the same without vectors.
+    `gains`: gains of stabilization by name, 2α and β² of Baumgarte's terms and 2α of a sticking friction, as far as
+    they exist.
     """
 
     newton: Newton
     derivative_calls: Mapping[str, Mapping[str, SharedFunctionCall]]
     derivative_kernels: tuple[Kernel, ...]
     correction_kernel: Kernel
-    unpaired_correction_kernel: Kernel
+    unvectorized_correction_kernel: Kernel
     gains: Mapping[str, sp.Expr]
     complex_kernels: tuple[Kernel, ...] = ()  # Newton's factor, substitute and solve once more
 
@@ -122,7 +123,7 @@ class KinematicFunctions:
     """The functions of a kinematically driven scene (dof = 0), whose positions Newton's method determines.
 
     `rows`: blocks of equations in tree coordinates; None: absolute coordinates, with the pivots of `projection_kkt`.
-    `pivots`: names of the equations to which a status number refers. `unpaired_kernels`: those in tree coordinates
+    `pivots`: names of the equations to which a status number refers. `unvectorized_kernels`: those in tree coordinates
     before sines are paired.
     """
 
@@ -130,7 +131,7 @@ class KinematicFunctions:
     pivots: tuple[str, ...]
     rows: SquareSystem | None
     projection_kkt: KKT | None
-    unpaired_kernels: tuple[Kernel, ...] = ()
+    unvectorized_kernels: tuple[Kernel, ...] = ()
 
     @property
     def groups(self) -> tuple[Block, ...]:
@@ -155,9 +156,9 @@ class Program:
     laws: tuple[Kernel, ...]  # of joints with play, each once
     joints: tuple[JointFunctions, ...]
     tree: TreeFunctions | None
-    integrated: Integrated
+    integrated: IntegratedSystem
     time_terms: TimeTerms  # of time alone, which may hide within a step
-    methods: Methods | None
+    methods: IntegratorFunctions | None
     kinematics: KinematicFunctions | None
     series: Series | None = None  # of Taylor's method
     taylor_below: float = 0.0  # tolerance below which `auto` integrates by the series; 0: never
@@ -196,8 +197,8 @@ class Program:
         it has user events or a block of equations whose rows are exchanged for pivots.
         """
         if self.kinematics:
-            kernels = self.kinematics.unpaired_kernels
-            motion = self.tree.unpaired_kernels if self.tree else ()
+            kernels = self.kinematics.unvectorized_kernels
+            motion = self.tree.unvectorized_kernels if self.tree else ()
             return bool(kernels) and not self.model.events and not _has_pivoted_block((*kernels, *motion))
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
@@ -238,7 +239,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     tree, in_tree = _derive_tree_functions(model, kkt.pivots) if not full else (None, None)
     event_kernel = make_event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
-    absolute_system = Integrated(system, kkt, angles, False, event_kernel, kkt.pivots)
+    absolute_system = IntegratedSystem(system, kkt, angles, False, event_kernel, kkt.pivots)
     integrated = in_tree or absolute_system
     program = Program(
         model,
@@ -252,7 +253,9 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         tree,
         integrated,
         find_time_terms(dynamics, motion_may_stop=bool(model.frictions or model.rigid)),
-        methods=_derive_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
+        methods=_derive_integrator_functions(model, integrated, staged or not integrated.reduced)
+        if integrates
+        else None,
         kinematics=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
     )
     series, tolerance = choose_taylor_series(program)
@@ -264,7 +267,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     return program
 
 
-def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integrated]:
+def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, IntegratedSystem]:
     """Return the functions of the reduced formulation, and the system that is integrated with its elimination.
 
     `pivots`: names of the equations to which a status number of the absolute formulation refers.
@@ -281,10 +284,12 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
         pivots = (*pivots, *(row.name for row in system.driven_loops.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)
     event_kernel = next((kernel for kernel in unpaired if kernel.name == EVENT_FUNCTIONS), None)
-    return tree, Integrated(system, kkt, angles, True, event_kernel, pivots, system.driven_loops)
+    return tree, IntegratedSystem(system, kkt, angles, True, event_kernel, pivots, system.driven_loops)
 
 
-def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:
+def _derive_integrator_functions(
+    model: Model, integrated: IntegratedSystem, with_complex_kernels: bool
+) -> IntegratorFunctions:
     """Return the functions that integrators need in addition to the right-hand side.
 
     They are Newton's method of implicit integrators, derivatives of contact forces, the correction that projects a
@@ -308,7 +313,7 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
     )
     has_film = any(clearance.film is not None for clearance in model.clearances)
     complex_kernels = make_complex_kernels(newton) if (with_complex_kernels or has_film) and not model.rigid else ()
-    return Methods(
+    return IntegratorFunctions(
         newton,
         derivative_calls,
         tuple(derivatives.kernels),
@@ -319,7 +324,7 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
     )
 
 
-def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) -> KinematicFunctions:
+def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: IntegratedSystem) -> KinematicFunctions:
     """Return the functions of a kinematically driven scene (dof = 0), whose positions follow by Newton's method.
 
     They are in tree coordinates if the reduced formulation is chosen and the pattern of the closures determines all

@@ -23,8 +23,9 @@ FILM_MASS_FACTOR = 1e6  # times the mass of all bodies: what projections give to
 def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
     """Return the kernel of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, and the KKT elimination that it prints.
 
-    x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. In M, light
-    bodies count with a least mass (`raise_small_masses`).
+    x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. The
+    argument r has all equations of the closed linkage; those that are not in `rows` are ignored. In M, light bodies
+    count with a least mass (`raise_small_masses`).
     """
     system = raise_small_masses(system)
     model, kkt = system.model, KKT(system, rows)
@@ -78,10 +79,10 @@ def add_film_masses(system: System) -> System:
 def raise_small_masses(system: System) -> System:
     """Return the system with masses raised to at least MIN_MASS_FRACTION of the mass of all bodies, for projections.
 
-    In the metric of M the equations of both joints of a light body nearly depend on each other. Constraint errors may
-    be measured in any positive definite metric. Larger masses stay exactly the same, and masses that are not constant
-    are not raised. A system with a drive whose rate jumps is returned unchanged: its projection is an impulse, which
-    needs M.
+    Each diagonal entry of M is raised to this mass times `compute_inertia_of_unit_mass`. In the metric of M the
+    equations of both joints of a light body nearly depend on each other; constraint errors may be measured in any
+    positive definite metric. Larger entries stay exactly the same, and entries that are not constant are not raised. A
+    system with a drive whose rate jumps is returned unchanged: its projection is an impulse, which needs M.
     """
     model, derive = system.model, system.model.parameter_table.derive_parameter
     if any(has_jumping_rate(drive) for drive in model.scene.mechanism.drives.values()):

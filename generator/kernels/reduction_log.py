@@ -101,7 +101,9 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
         )
     if system.slides:
         names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
-        yield Step(message.KNOWN, tuple(names) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
+        yield Step(
+            message.KNOWN, tuple(names) or tuple(system.slides), tuple(system.slides), rows_gone=system.slide_rows
+        )
     if system.driven_loops:
         rows = tuple(row.name for row in system.driven_loops.rows)
         removed = tuple(name if "." in name else f"{name}.theta" for name in system.driven_loops.names)

@@ -126,7 +126,7 @@ def _list_file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterato
     used_symbols = set().union(*(value.free_symbols for value in user_expressions))
     for entry in model.parameter_table.entries.values():
         if entry.symbol in used_symbols:
-            yield model.parameter_table.find_field_name(entry.symbol), entry.symbol
+            yield model.parameter_table.find_member_name(entry.symbol), entry.symbol
 
 
 def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:

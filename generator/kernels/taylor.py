@@ -63,21 +63,21 @@ def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
         series = _derive_series(system)
     except NoTaylorSeries:
         return None, 0.0
-    tolerance = _predict_tolerance(program, series)
+    tolerance = _find_crossover_tolerance(program, series)
     return (series, tolerance) if tolerance else (None, 0.0)
 
 
 def _count_rhs_operations(program: Program) -> int:
     """Return the number of operations of the right-hand side in tree coordinates."""
     assert program.tree
-    return next(kernel.n_operations for kernel in program.tree.unpaired_kernels if kernel.name == DYNAMICS)
+    return next(kernel.n_operations for kernel in program.tree.unvectorized_kernels if kernel.name == DYNAMICS)
 
 
-def _predict_tolerance(program: Program, series: Series) -> float:
+def _find_crossover_tolerance(program: Program, series: Series) -> float:
     """Return the tolerance below which a cost model predicts less time for the series than for dop853; 0.0 for none.
 
-    The comparison is made at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between
-    two of them: 10^(0.5 − exponent).
+    The costs are compared at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The series must be
+    cheaper at every power below the result, which lies between two of them: 10^(0.5 − exponent).
     """
     n_rhs, n_rows, tolerance = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
@@ -127,14 +127,14 @@ def _derive_series(system: TreeSystem) -> Series:
         make_dynamics_kernel(system, kkt, DYNAMICS, is_stabilized=False, append_fallback=_ignore_vanishing_pivot)
     )
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
-    linear = LinearSystem(FACTORS, {**kkt.entries, **diagonal}, kkt.loads, kkt.unknowns)
+    linear = LinearSystem(FACTORS, {**kkt.entries, **diagonal}, kkt.right_hand_sides, kkt.unknowns)
     return derive_taylor_series(dynamics, _find_result_place, NAME, linear)
 
 
 class _RecordedKKT(KKT):
     """A KKT system that records its right-hand sides as named locals, and the symbols of its unknowns, by node."""
 
-    loads: dict[str, int]
+    right_hand_sides: dict[str, int]
     unknowns: dict[int, sp.Symbol]
 
     def factorize(
@@ -157,15 +157,16 @@ class _RecordedKKT(KKT):
     ) -> dict[int, sp.Expr]:
         """Append the solution of the KKT system and return it by node (number of coordinate, equation, friction).
 
-        The names of the right-hand sides go to `loads`, the symbols of the unknowns to `unknowns`. `factor`: the result
-        of `factorize`. `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the locals.
+        The names of the right-hand sides go to `right_hand_sides`, the symbols of the unknowns to `unknowns`. `factor`:
+        the result of `factorize`. `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the
+        locals.
         """
         builder.begin_section("right-hand side")
-        load_symbols = {
+        right_hand_side_symbols = {
             k: builder.append_local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order
         }
-        self.loads = {symbol.name: k for k, symbol in load_symbols.items()}
-        x = super().solve(builder, factor, load_symbols, prefix)
+        self.right_hand_sides = {symbol.name: k for k, symbol in right_hand_side_symbols.items()}
+        x = super().solve(builder, factor, right_hand_side_symbols, prefix)
         self.unknowns = {k: symbol for k, symbol in x.items() if symbol.is_Symbol}
         return x
 

@@ -162,14 +162,16 @@ def _describe_users_of_expression(reader: Reader, address: str) -> str:
     return f", and {users[0]} and {len(users) - 1} more use it" if len(users) > 1 else f", and {users[0]} uses it"
 
 
-def _find_invalid_part(quantity: Quantity, parameter_numbers: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
+def _find_invalid_part(
+    quantity: Quantity, parameter_numbers: Mapping[str, float], is_not_finite: bool
+) -> tuple[str, str]:
     """Return (message, hint) about a part of an expression that cannot be intended; ("", "") if there is none.
 
     Tested are undefined parts, underflows, and ramps with a negative duration. `parameter_numbers`: values of
-    parameters. `is_wrong`: the whole value is not finite, which was reported; its undefined parts are then not
+    parameters. `is_not_finite`: the whole value is not finite, which was reported; its undefined parts are then not
     searched.
     """
-    undefined_part = None if is_wrong else find_undefined_part(quantity.value, parameter_numbers)
+    undefined_part = None if is_not_finite else find_undefined_part(quantity.value, parameter_numbers)
     if undefined_part is not None:
         return f"has a part that is {undefined_part}", FINITE
     if (underflow := _find_underflow(quantity.value, parameter_numbers)) is not None:

@@ -296,8 +296,8 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     """Return a force law of the given role with its numbers and options; defaults of the law are filled in.
 
     Errors of its numbers are collected. Raises an InputError if the law is missing, unknown or of another role, or for
-    an option that has an effect only without a number that is given. The key of a user-defined law is recorded in
-    `reader.laws`.
+    an option that has an effect only without a number that is given. A name that is an alias of a law sets the options
+    of the alias. The key of a user-defined law is recorded in `reader.laws`.
     """
     if not isinstance(node.get("law"), Text):
         raise make_missing_key_error("law", node.where, address)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from gudgeon.errors import BadNameError, Location
 from gudgeon.generator.field import OF_MOTION, OF_RESULTS
-from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.format.sections import MECHANISM_FILE
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reader.collector import UNREADABLE_EXPRESSION, NamedExpression, Reader
 from gudgeon.generator.reader.point_names import CORNERS_OF_SIDES, IMPLIED_POINTS, PointNames
@@ -24,7 +24,7 @@ _EXPRESSION_SECTIONS = {"parameters": "parameter", "outputs": "output", "curves"
 # sections whose names are labels that only the file uses
 _LABEL_SECTIONS = {
     section.name: section.entry.name
-    for section in FILE.fields
+    for section in MECHANISM_FILE.fields
     if section.entry is not None and section.name not in {*_RESULT_SECTIONS, *_EXPRESSION_SECTIONS, GROUND}
 }
 # reserved names of points: `L1.x` is a coordinate of the body

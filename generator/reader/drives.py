@@ -65,7 +65,7 @@ def _read_drive(
     with reader.collect_errors():
         target = _TARGET_READERS[kind](reader, node, kind, point_names)
     dimension = target.dimension if target else None
-    fields = [replace(f, dimension=dimension) if f.any_dimension else f for f in DRIVES[kind].fields]
+    fields = [replace(f, dimension=dimension) if f.accepts_any_dimension else f for f in DRIVES[kind].fields]
     value = read_fields(reader, node, fields, FieldContext(address, mistyped_keys=mistyped)).quantities.get("value")
     if target is None or value is None:
         return None

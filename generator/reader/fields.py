@@ -57,10 +57,11 @@ class _Kind(Protocol):
 def read_kind(
     reader: Reader, node: Map, kinds: Mapping[str, _Kind], address: str, hints: Mapping[str, str] = _NO_HINTS
 ) -> tuple[Text, frozenset[str | None]]:
-    """Return the key that states an entry's kind, and the keys that its unknown keys probably mean.
+    """Return (kind, mistyped keys): the key that states an entry's kind, and the valid keys that unknown keys resemble.
 
-    Errors of unknown keys are collected (`report_unknown_keys`). `address` is the entry's address; `hints` maps keys
-    of other sections to a hint. Raises an InputError if there is no kind or more than one.
+    Errors of unknown keys are collected (`report_unknown_keys`); None stands for an unknown key that resembles no valid
+    one. `address` is the entry's address; `hints` maps keys of other sections to a hint. Raises an InputError if there
+    is no kind or more than one.
     """
     kind_key = find_kind_key(
         node, kinds, [key for kind_type in kinds.values() for key in list_field_names(kind_type.fields)], address

@@ -186,18 +186,18 @@ class Motions:
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 
-    def derive_vector_parameters(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
-        """Return each component of a constant vector as a derived parameter, which C computes once a run.
+    def add_derived_vector(self, base_name: str, vector: Pair, member_base_name: str = "") -> Pair:
+        """Return the components of a constant vector as derived parameters, which C computes once a run.
 
         A component whose value or opposite value is a parameter already gives ± that parameter. `base_name`: base of
-        the names; `field_base_name`: base of the names of the fields in C, "" if it is the same.
+        the names; `member_base_name`: base of the names of the members of Parameters in C, "" if it is the same.
         """
         x, y = (
             self.parameter_table.derive_signed_parameter(
                 f"{base_name}_{axis}",
                 sp.expand(part),
                 "vector in its frame",
-                f"{field_base_name}_{axis}" if field_base_name else "",
+                f"{member_base_name}_{axis}" if member_base_name else "",
             )
             for axis, part in zip("xy", vector, strict=True)
         )

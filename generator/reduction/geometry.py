@@ -173,7 +173,7 @@ class TreeGeometry(Geometry):
         cos = derive(f"cos_{body}_offset", sp.cos(offset), f"angle of {body} in its frame")
         sin = derive(f"sin_{body}_offset", sp.sin(offset), f"angle of {body} in its frame")
         rotated = (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
-        return self.motions.derive_vector_parameters(base_name, rotated, f"{base_name}_in_frame")
+        return self.motions.add_derived_vector(base_name, rotated, f"{base_name}_in_frame")
 
     def _set_base_point(self, tree_edge: TreeEdge) -> None:
         """Set the base point of a body, the point of its parent that positions it, then make the body's symbols.
@@ -238,9 +238,7 @@ class TreeGeometry(Geometry):
         result = dict(terms)
         for key, w in added_terms.items():
             if key in result:
-                w = self.motions.derive_vector_parameters(
-                    f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1])
-                )
+                w = self.motions.add_derived_vector(f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1]))
             result[key] = w
         return {key: w for key, w in result.items() if w != (ZERO, ZERO)}
 
@@ -258,7 +256,8 @@ class TreeGeometry(Geometry):
     def compute_jacobian_columns(self, terms: Terms) -> dict[str, Pair]:
         """Return ∂r/∂z of the position r of a sum of terms, as pairs (x, y) by coordinate z, prescribed ones included.
 
-        `terms`: vectors w by (frame, slide).
+        A column is Σ (∂θ/∂z value ẑ × A w + ∂value/∂z A w). `terms`: vectors w by (frame, slide); value is that of the
+        slide.
         """
         result: dict[str, Pair] = {}
         for (name, slide), w in terms.items():
@@ -272,9 +271,10 @@ class TreeGeometry(Geometry):
         return result
 
     def compute_bias(self, terms: Terms) -> Pair:
-        """Return r̈ of a sum of terms for z̈ = 0: Σ (−θ̇² value + 2 θ̇ rate ẑ) A(θ) w, as (x, y).
+        """Return r̈ of a sum of terms for z̈ = 0: Σ (−θ̇² value A w + 2 θ̇ rate ẑ × A w), as (x, y).
 
-        `terms`: vectors w by (frame, slide); value and rate are those of the slide. z are all coordinates.
+        `terms`: vectors w by (frame, slide); A(θ) is the rotation of the frame, value and rate are those of the slide.
+        ẑ × turns a vector by +90°. z are all coordinates.
         """
         x, y = ZERO, ZERO
         for (name, slide), w in terms.items():
@@ -292,16 +292,14 @@ class TreeGeometry(Geometry):
         return {k: c for k, c in self.slides[slide].items() if k != CONSTANT} if slide else {}
 
     def _make_point(self, body: str, vector: Pair, base_name: str, names: tuple[str, str, str, str]) -> TreePoint:
-        """Return the point of a body at s, a vector from its centre of mass in the body's frame.
+        """Return a point of a body; `vector` leads from the body's centre of mass to the point, in the body's frame.
 
         `base_name`: base of the names of derived parameters and rotated vectors. `names`: names for (x, y, ẋ, ẏ); a
         value that is not a number or ± a symbol becomes a symbol of that name.
         """
         base, body_base = self._base[body]
         frame, local = self.frame_of[body], self.rotate_to_frame(body, vector, base_name)
-        w = self.motions.derive_vector_parameters(
-            f"{base_name}_span", (local[0] - body_base[0], local[1] - body_base[1])
-        )
+        w = self.motions.add_derived_vector(f"{base_name}_span", (local[0] - body_base[0], local[1] - body_base[1]))
         a_x, a_y = self.motions.rotate_vector(frame, w, f"span_{base_name}")
         terms = self._add_terms(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, base_name)
         columns, define_symbol = self.compute_jacobian_columns(terms), self.motions.define_value
@@ -309,15 +307,15 @@ class TreeGeometry(Geometry):
         rates = [base.velocity[0] - frame.omega * a_y, base.velocity[1] + frame.omega * a_x]
         for i in range(2):
             point_columns = {k: c[i] for k, c in columns.items() if c[i] != 0}
-            if not self.is_simple(values[i]):
+            if not self.is_number_or_signed_symbol(values[i]):
                 values[i] = define_symbol(names[i], values[i], point_columns)
-            if not self.is_simple(rates[i]):
+            if not self.is_number_or_signed_symbol(rates[i]):
                 rates[i] = self.motions.define_rate(names[2 + i], rates[i], point_columns)
         arm = self.rotate_vector(self.bodies[body], vector, f"arm_{base_name}") if body in self.bodies else (ZERO, ZERO)
         position, speed = (values[0], values[1]), (rates[0], rates[1])
         return TreePoint(self, self.bodies.get(body), arm, terms, position, speed)
 
-    def is_simple(self, value: sp.Expr) -> bool:
+    def is_number_or_signed_symbol(self, value: sp.Expr) -> bool:
         """Return whether a value is a symbol, its negative, or a number, so that it needs no symbol of its own."""
         return bool(value.is_Number) or is_signed_symbol(value)
 

@@ -29,7 +29,7 @@ class Inertia:
         self.symbols, self.parameter_table = geometry.symbols, geometry.parameter_table
         self._alpha_and_beta: dict[tuple[Term, Term], tuple[sp.Expr, sp.Expr]] = {}
         self._mass_moments: dict[Term, Pair] = {}  # Σ m w
-        self._angle_differences: dict[tuple[str, str], Pair] = {}  # cos and sin of θ_U − θ_T
+        self._angle_differences: dict[tuple[str, str], Pair] = {}  # cos and sin of θ_second − θ_first
         self._products: dict[tuple[Term, Term], Pair] = {}
         self._sum_body_constants()
         self.mass = self._derive_mass()
@@ -42,14 +42,20 @@ class Inertia:
         """
         for body in self.geometry.bodies.values():
             moving_terms = [
-                (T, w) for T, w in self.geometry.centre_of_mass(body.name).terms.items() if T != (GROUND, "")
+                (first, w)
+                for first, w in self.geometry.centre_of_mass(body.name).terms.items()
+                if first != (GROUND, "")
             ]
-            for i, (T, w) in enumerate(moving_terms):
-                m_x, m_y = self._mass_moments.get(T, (ZERO, ZERO))
-                self._mass_moments[T] = m_x + body.mass * w[0], m_y + body.mass * w[1]
-                for U, u in moving_terms[i:]:
-                    sign = 1 if (T, U) in self._alpha_and_beta or (U, T) not in self._alpha_and_beta else -1
-                    key = (T, U) if sign == 1 else (U, T)
+            for i, (first, w) in enumerate(moving_terms):
+                m_x, m_y = self._mass_moments.get(first, (ZERO, ZERO))
+                self._mass_moments[first] = m_x + body.mass * w[0], m_y + body.mass * w[1]
+                for second, u in moving_terms[i:]:
+                    sign = (
+                        1
+                        if (first, second) in self._alpha_and_beta or (second, first) not in self._alpha_and_beta
+                        else -1
+                    )
+                    key = (first, second) if sign == 1 else (second, first)
                     alpha, beta = self._alpha_and_beta.get(key, (ZERO, ZERO))
                     dot, cross = w[0] * u[0] + w[1] * u[1], w[0] * u[1] - w[1] * u[0]
                     self._alpha_and_beta[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
@@ -127,16 +133,16 @@ class Inertia:
         """Return a number unchanged, else a new symbol for the value; `base_name`: base of its name."""
         return value if value.is_Number else self.symbols.add_definition(base_name, value)
 
-    def _find_jacobian_columns(self, T: Term) -> dict[str, Pair]:
-        """Return ∂r_T/∂z of a term T by coordinate z, as pairs (turn, slide): ∂r_T/∂z = (turn ẑ + slide) A w.
+    def _find_jacobian_columns(self, term: Term) -> dict[str, Pair]:
+        """Return ∂r/∂z of a term r of a position by coordinate z, as pairs (angular, linear).
 
-        `turn`: coefficient of the rotation, in m if the term has a slide; `slide`: that of the displacement. ẑ turns a
-        vector by +90°; A w is the term's vector in ground axes.
+        ∂r/∂z = angular ẑ × A w + linear A w, with the vector A w of the term in ground axes. `angular` is in m if the
+        term has a slide; ẑ × turns a vector by +90°.
         """
         frame, along, value = (
-            self.geometry.frames[T[0]],
-            self.geometry.find_slide_coefficients(T[1]),
-            self.geometry.get_slide_value(T[1]),
+            self.geometry.frames[term[0]],
+            self.geometry.find_slide_coefficients(term[1]),
+            self.geometry.get_slide_value(term[1]),
         )
         names = dict.fromkeys((*frame.angle_coefficients, *along))
         return {k: (frame.angle_coefficients.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
@@ -146,22 +152,28 @@ class Inertia:
 
         Both orders are yielded; a pair of a term with itself is yielded once.
         """
-        for T, U in self._alpha_and_beta:
-            yield T, U
-            if T != U:
-                yield U, T
+        for first, second in self._alpha_and_beta:
+            yield first, second
+            if first != second:
+                yield second, first
 
     def _derive_mass(self) -> dict[tuple[str, str], sp.Expr]:
         """Return both triangles of M by names of coordinates, prescribed ones included, without zeros.
 
-        An entry is a sum over pairs of terms T, U with their products P and Q (`find_inertia_coupling`).
+        An entry is a sum over ordered pairs of terms with their products P and Q (`find_inertia_coupling`), and over
+        the bodies' moments of inertia about their centres of mass.
         """
         sums: dict[tuple[str, str], sp.Expr] = {}
-        for T, U in self._iterate_term_pairs():
-            P, Q = self.find_inertia_coupling(T, U)
-            for k, (turn_T, slide_T) in self._find_jacobian_columns(T).items():
-                for j, (turn_U, slide_U) in self._find_jacobian_columns(U).items():
-                    entry = turn_T * turn_U * P + turn_T * slide_U * Q - slide_T * turn_U * Q + slide_T * slide_U * P
+        for first, second in self._iterate_term_pairs():
+            P, Q = self.find_inertia_coupling(first, second)
+            for k, (angular_first, linear_first) in self._find_jacobian_columns(first).items():
+                for j, (angular_second, linear_second) in self._find_jacobian_columns(second).items():
+                    entry = (
+                        angular_first * angular_second * P
+                        + angular_first * linear_second * Q
+                        - linear_first * angular_second * Q
+                        + linear_first * linear_second * P
+                    )
                     sums[k, j] = sums.get((k, j), ZERO) + entry
         for body in self.geometry.bodies.values():
             angle_coefficients = self.geometry.frame_of[body.name].angle_coefficients
@@ -203,16 +215,16 @@ class Inertia:
         z_k are all coordinates, prescribed ones included. The equations of motion are M z̈ + h = applied forces.
         """
         h: dict[str, sp.Expr] = {}
-        for T, U in self._iterate_term_pairs():
-            P, Q = self.find_inertia_coupling(T, U)
+        for first, second in self._iterate_term_pairs():
+            P, Q = self.find_inertia_coupling(first, second)
             frame, value, rate = (
-                self.geometry.frames[U[0]],
-                self.geometry.get_slide_value(U[1]),
-                self.geometry.get_slide_rate(U[1]),
+                self.geometry.frames[second[0]],
+                self.geometry.get_slide_value(second[1]),
+                self.geometry.get_slide_rate(second[1]),
             )
             radial, tangential = -(frame.omega**2) * value, 2 * frame.omega * rate
-            for k, (turn, slide) in self._find_jacobian_columns(T).items():
-                term = turn * radial * Q + turn * tangential * P + slide * radial * P - slide * tangential * Q
+            for k, (angular, linear) in self._find_jacobian_columns(first).items():
+                term = angular * radial * Q + angular * tangential * P + linear * radial * P - linear * tangential * Q
                 h[k] = h.get(k, ZERO) + term
         return {k: self.hoist_constants(f"spin_{k}", value) for k, value in h.items()}
 
@@ -220,8 +232,8 @@ class Inertia:
         """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate z_k, without zeros; g is gravity."""
         g_x, g_y = self.gravity
         sums: dict[str, sp.Expr] = {}
-        for T, (m_x, m_y) in self._mass_moments.items():
-            frame, name = self.geometry.frames[T[0]], "_".join(T).replace(".", "_")
+        for term, (m_x, m_y) in self._mass_moments.items():
+            frame, name = self.geometry.frames[term[0]], "_".join(term).replace(".", "_")
             alpha = self.parameter_table.derive_parameter(
                 f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight"
             )
@@ -229,6 +241,6 @@ class Inertia:
                 f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight"
             )
             P, Q = alpha * frame.cos + beta * frame.sin, beta * frame.cos - alpha * frame.sin
-            for k, (turn, slide) in self._find_jacobian_columns(T).items():
-                sums[k] = sums.get(k, ZERO) + turn * Q + slide * P
+            for k, (angular, linear) in self._find_jacobian_columns(term).items():
+                sums[k] = sums.get(k, ZERO) + angular * Q + linear * P
         return {k: self.hoist_constants(f"weight_{k}", value) for k, value in sums.items() if value != 0}

@@ -39,7 +39,7 @@ class TreeSystem(System):
     tree: Tree
     unknowns: tuple[str, ...]
     slides: Mapping[str, Affine]  # slides that drives or other slides determine
-    sliding: tuple[str, ...]  # the equations that determine them, one per slide
+    slide_rows: tuple[str, ...]  # the equations that determine them, one per slide
     driven_loops: DrivenLoops | None = None  # what the drives determine through loops (driven_loops.py)
     in_tree = True
 
@@ -136,18 +136,18 @@ def reduce_model(model: Model) -> TreeSystem:
     """
     tree = choose_tree(model)
     slides: dict[str, Affine] = {}
-    sliding: tuple[str, ...] = ()
+    slide_rows: tuple[str, ...] = ()
     while True:
         geometry, constraints = _make_tree_geometry(model, tree, slides)
         rows = _derive_closures(model, tree, constraints)
         elimination = _find_determined_slide(model, geometry, constraints, rows)
         if elimination is None:
             return _eliminate_driven_loops(
-                model, _make_system(model, tree, (slides, sliding), geometry, constraints, rows)
+                model, _make_system(model, tree, (slides, slide_rows), geometry, constraints, rows)
             )
         row, name, value = elimination
         slides = {slide: substitute_coordinate(affine, name, value) for slide, affine in slides.items()} | {name: value}
-        sliding += (row,)
+        slide_rows += (row,)
         tree = replace(tree, satisfied_rows=tree.satisfied_rows | {row})
 
 
@@ -187,7 +187,7 @@ def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) 
     for drive in model.scene.mechanism.drives.values():
         if drive.name in used_names:
             constraints.define_drive_value(drive)
-            motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_angles[drive.name])
+            motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_functions[drive.name])
     geometry.build_bodies(motions, slides)
     return geometry, constraints
 
@@ -216,12 +216,13 @@ def _find_determined_slide(
 ) -> tuple[str, str, Affine] | None:
     """Return (equation, slide, value) for an equation that gives a slide by other slides and drives.
 
-    The equation is linear in slides with constant coefficients; the value is affine. Names stand for the first two.
-    Return None if there is no such equation; that of a drive whose rate may jump does not count.
+    The equation is linear in slides with constant coefficients, and is solved for a slide with the coefficient ±1 if
+    there is one; the value is affine. Names stand for the first two. Return None if there is no such equation; that of
+    a drive whose rate may jump does not count.
     """
     names = {c.q: name for name, c in geometry.motions.coordinates.items()}
     drives = {c.q: name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
-    drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
+    drives |= {value: name for name, (value, *_) in constraints.drive_functions.items()}
     is_constant = geometry.parameter_table.is_constant
     for row in rows:
         if is_impulsive_drive(model, row):
@@ -286,7 +287,7 @@ def _make_system(
         reduced,
         tuple(coordinate.q for coordinate in unknowns.values()),
         tuple(coordinate.v for coordinate in unknowns.values()),
-        {body: _derive_motion(geometry, body, index_of) for body in model.geometry.bodies},
+        {body: _derive_body_motion(geometry, body, index_of) for body in model.geometry.bodies},
         mass,
         tuple(compute_applied_force(name) for name in unknowns),
         drives,
@@ -336,7 +337,7 @@ def _make_tree_model(
     )
 
 
-def _derive_motion(geometry: TreeGeometry, body: str, index_of: Mapping[str, int]) -> Motion:
+def _derive_body_motion(geometry: TreeGeometry, body: str, index_of: Mapping[str, int]) -> Motion:
     """Return the Jacobian and bias of a body's centre of mass and angle: r̈ = J s̈ + bias for the unknowns s.
 
     `index_of`: index of each unknown; the accelerations of prescribed coordinates are in the bias.

@@ -313,8 +313,9 @@ def is_impulsive_drive(model: Model, row: Row) -> bool:
 def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
     """Return the angles of all bodies as affine expressions in free angles and drives, and the equations used.
 
-    The equations are solved by elimination, those of drives first. The second result maps each equation to the body
-    whose angle it gives.
+    The equations are solved by elimination, those of drives first. Each is solved for an angle with the coefficient ±1
+    if there is one, and for the last such body in the order of the file. The second result maps each equation to the
+    body whose angle it gives.
     """
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
     used_rows: dict[str, str] = {}
@@ -346,7 +347,7 @@ def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine])
     body_of = {body.theta: body.name for body in model.bodies}
     if not all(q in body_of and model.parameter_table.is_constant(coefficient) for q, coefficient in row.phi_q.items()):
         return None
-    drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
+    drives = {value: name for name, (value, *_) in model.constraints.drive_functions.items()}
     if is_impulsive_drive(model, row):
         return None
     remainder = sp.expand(row.phi - sum(coefficient * q for q, coefficient in row.phi_q.items()))

@@ -24,9 +24,10 @@ Pairs = Sequence[tuple[int, int]]  # coordinate, row
 class DependentCoordinates:
     """Assignment of equations to bodies' coordinates from the ground outwards, for the elimination order.
 
-    To place a coordinate is to assign it the equation that gives it from placed ones; both form one pivot block.
-    `groups`, in the order of placing: a coordinate and its equation, or x, y and the equation of a line. No equation
-    depends on a coordinate that is placed after its own.
+    A coordinate is assigned if an equation gives it from coordinates assigned before, or if it was selected as
+    independent. An assigned coordinate and its equation form one pivot block. `groups`, in the order of assignment: a
+    coordinate and its equation, or x, y and the equation of a line. No equation depends on a coordinate that is
+    assigned after its own.
     """
 
     def __init__(
@@ -43,9 +44,9 @@ class DependentCoordinates:
         self._entries = [{index_of_coordinate[q]: entry for q, entry in row.phi_q.items()} for row in rows]
         self._constant_coordinates = [self._find_constant_coordinates(entries) for entries in self._entries]
         self.groups: list[tuple[tuple[int, ...], int]] = []
-        self._placed: set[int] = set()
+        self._assigned: set[int] = set()
         self._used_rows: set[int] = set()
-        while self._place_single_coordinates() or self._place_body_on_line() or self._place_free_body():
+        while self._assign_single_coordinates() or self._assign_body_on_line() or self._select_independent_coordinate():
             pass
 
     def _find_constant_coordinates(self, entries: dict[int, sp.Expr]) -> set[int]:
@@ -58,60 +59,64 @@ class DependentCoordinates:
             return set(entries)
         return {k for k, entry in entries.items() if k % 3 < 2 and is_unit(entry)}
 
-    def _find_unplaced_coordinates(self, r: int) -> set[int]:
-        """Return the coordinates with a constant entry in equation r that are not placed yet."""
-        return self._constant_coordinates[r] - self._placed
+    def _find_unassigned_coordinates(self, r: int) -> set[int]:
+        """Return the coordinates with a constant entry in equation r that are not assigned yet."""
+        return self._constant_coordinates[r] - self._assigned
 
-    def _place_single_coordinates(self) -> bool:
-        """Place coordinates by equations with exactly one unplaced coordinate of constant entry.
+    def _assign_single_coordinates(self) -> bool:
+        """Assign to coordinates the equations in which they are the only unassigned coordinate with a constant entry.
 
-        Return whether such an equation exists. To place a coordinate is to assign it the equation that gives it.
-        Entries ±1 of x and y count, and constant entries of equations in angles alone. Only the best candidates are
-        placed (`_select_candidates`).
+        Return whether such an equation exists. Entries ±1 of x and y count, and constant entries of equations in angles
+        alone. Only the best candidates are assigned (`_select_candidates`).
         """
         candidates = [
-            (min(self._find_unplaced_coordinates(r)), r)
+            (min(self._find_unassigned_coordinates(r)), r)
             for r in range(len(self.rows))
-            if len(self._find_unplaced_coordinates(r)) == 1
+            if len(self._find_unassigned_coordinates(r)) == 1
         ]
         for k, r in self._select_candidates(candidates):
-            if k not in self._placed:
+            if k not in self._assigned:
                 self._record_group((k,), r)
         return bool(candidates)
 
-    def _place_body_on_line(self) -> bool:
-        """Place x and y of a body together by the first unused equation that contains both; return whether one exists.
+    def _assign_body_on_line(self) -> bool:
+        """Assign to x and y of a body the first unused equation that contains both; return whether one exists.
 
-        The equation must not contain an unplaced x or y of another body.
+        The equation must not contain an unassigned x or y of another body.
         """
         for r, entries in enumerate(self._entries):
-            places = sorted(k for k in entries if k % 3 < 2 and k not in self._placed)
-            if r not in self._used_rows and len(places) == 2 and places[0] // 3 == places[1] // 3:
-                self._record_group(tuple(places), r)
+            line_coordinates = sorted(k for k in entries if k % 3 < 2 and k not in self._assigned)
+            if r in self._used_rows or len(line_coordinates) != 2:
+                continue
+            if line_coordinates[0] // 3 == line_coordinates[1] // 3:
+                self._record_group(tuple(line_coordinates), r)
                 return True
         return False
 
-    def _place_free_body(self) -> bool:
-        """Mark a coordinate as placed that no equation gives by placed ones; return whether there was any.
+    def _select_independent_coordinate(self) -> bool:
+        """Mark as assigned a coordinate that no equation gives by assigned ones; return whether there was any.
 
-        It is the first coordinate of an equation that is not placed yet; x and y of a body are marked together.
+        It is the first unassigned coordinate of an equation; x and y of a body are marked together. Equations can then
+        give other coordinates from them.
         """
-        tied_coordinates = [
+        constrained_coordinates = [
             *self._constant_coordinates,
             *({k for k in entries if k % 3 < 2} for entries in self._entries),
         ]
-        first_unplaced = next((k for coordinates in tied_coordinates for k in sorted(coordinates - self._placed)), None)
-        if first_unplaced is not None:
-            self._placed |= _add_sibling_coordinate(first_unplaced)
-        return first_unplaced is not None
+        first_unassigned = next(
+            (k for coordinates in constrained_coordinates for k in sorted(coordinates - self._assigned)), None
+        )
+        if first_unassigned is not None:
+            self._assigned |= _add_sibling_coordinate(first_unassigned)
+        return first_unassigned is not None
 
     def _record_group(self, coordinates: tuple[int, ...], r: int) -> None:
         """Record that equation r gives `coordinates`: one, or x and y of a body on a line.
 
-        The group (coordinates, r) is appended, and the coordinates and the equation are marked as used.
+        The group (coordinates, r) is appended, the coordinates are marked as assigned and the equation as used.
         """
         self.groups.append((coordinates, r))
-        self._placed |= set(coordinates)
+        self._assigned |= set(coordinates)
         self._used_rows.add(r)
 
     def _select_candidates(self, candidates: Pairs) -> Pairs:
@@ -132,22 +137,23 @@ class DependentCoordinates:
         }
         best_rank = min(rank.values(), default=None)
         best = [pair for pair in candidates if rank[pair] == best_rank]
-        only_avoided = bool(best) and rank[best[0]][0]  # with one body that is placed others may be placed by it
+        only_avoided = bool(best) and rank[best[0]][0]  # once one body has a position, others may get theirs from it
         return [(k, r) for k, r in best if not only_avoided or k // 3 == best[0][0] // 3]
 
     def find_leaves_without_inertia(self) -> set[tuple[str, str]]:
-        """Return pairs (body, joint) of leaf bodies with negligible moment of inertia about the joint that places them.
+        """Return pairs (body, joint) of leaf bodies with negligible moment of inertia about their positioning joint.
 
-        A leaf carries no other body; bodies whose angle an equation gives are left out. Both are names. The criterion
-        is `Model.has_negligible_inertia`.
+        That joint gives the position of the body from that of the body that carries it. A leaf carries no other body;
+        bodies whose angle an equation gives are left out. Both are names. The criterion is
+        `Model.has_negligible_inertia`.
         """
         joints, bodies = self.model.scene.mechanism.joints, self.model.bodies
-        placing_joints = {
+        positioning_joints = {
             (bodies[first_coordinate // 3].name, owner)
             for (first_coordinate, *_), r in self.groups
             if first_coordinate % 3 < 2 and (owner := self.rows[r].owner) in joints
         }
-        ends = [(body, joints[owner]) for body, owner in placing_joints]
+        ends = [(body, joints[owner]) for body, owner in positioning_joints]
         carriers = {joint.first.body if joint.second.body == body else joint.second.body for body, joint in ends}
         rotating_bodies = {
             bodies[first_coordinate // 3].name

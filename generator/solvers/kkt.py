@@ -25,7 +25,7 @@ from gudgeon.generator.solvers.pivots import (
     VANISHING,
     ZERO,
     Factor,
-    append_local_unless_simple,
+    append_local_if_composite,
     find_row_pairs,
     make_pivot_guard,
 )
@@ -144,10 +144,10 @@ class KKT:
                     common_columns = [j for j in earlier_columns[k] if (i, j) in L]
                     value = self.entries.get((i, k), self.entries.get((k, i), ZERO))
                     value = subtract_products(value, ((L[i, j], W[k, j]) for j in common_columns))
-                    W[i, k] = append_local_unless_simple(builder, f"w_{self.names[i]}__{self.names[k]}", value)
+                    W[i, k] = append_local_if_composite(builder, f"w_{self.names[i]}__{self.names[k]}", value)
                 for k in block:
                     value = add_products(ZERO, ((W[i, j], entry) for j, entry in inverse[k].items()))
-                    L[i, k] = append_local_unless_simple(builder, f"l_{self.names[i]}__{self.names[k]}", value)
+                    L[i, k] = append_local_if_composite(builder, f"l_{self.names[i]}__{self.names[k]}", value)
             for i in later_nodes:
                 earlier_columns[i] += block
         return Factor(L, inverse)
@@ -204,7 +204,7 @@ class KKT:
             else self.system.model.parameter_table.derive_parameter(f"inverse_{self.names[row]}", 1 / entry)
         )
         mass = subtract_products(self.system.mass[k, k], ((L[k, j], W[k, j]) for j in earlier_columns[k]))
-        mass = append_local_unless_simple(builder, f"inertia_{self.names[k]}", mass)
+        mass = append_local_if_composite(builder, f"inertia_{self.names[k]}", mass)
         return {
             k: {row: inverse_entry},
             row: {k: inverse_entry, row: -mass if is_unit(entry) else -mass * inverse_entry**2},
@@ -246,7 +246,7 @@ class KKT:
         scale_values = [compute_schur_entry(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
         scale = [builder.append_local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
         size = [
-            self._compute_row_size(builder, k, pivot_values)
+            self._compute_pivot_scale(builder, k, pivot_values)
             for k, pivot_values in zip(block, scale, strict=is_row_pair)
         ]
         pivots = [compute_schur_entry(k, k, lambda j: j >= self.n or not is_row_pair) for k in block]
@@ -255,10 +255,8 @@ class KKT:
             if is_row_pair
             else pivots
         )
-        pivot_values = [
-            append_local_unless_simple(builder, f"pivot_{name[i]}", value) for i, value in enumerate(values)
-        ]
-        cross_entry = append_local_unless_simple(
+        pivot_values = [append_local_if_composite(builder, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
+        cross_entry = append_local_if_composite(
             builder, f"pivot_{name[0]}__{name[1]}", compute_schur_entry(second, first, lambda j: True)
         )
         determinant = builder.append_local(
@@ -285,7 +283,7 @@ class KKT:
             second: {first: inverse_cross, second: inverse_second},
         }
 
-    def _compute_row_size(self, builder: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
+    def _compute_pivot_scale(self, builder: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
         """Return the size with which the pivot of equation k is compared in the test for a zero pivot.
 
         k is the number of the node. The size is `scale` in tree coordinates, for the equations of the first pivots,
@@ -350,7 +348,7 @@ class KKT:
         mass = self.system.mass[k, k]
         if jump_on_failure and k in self.inertias_of_angles:
             value = subtract_products(mass, ((L[k, j], W[k, j]) for j in earlier_columns))
-            pivot = append_local_unless_simple(builder, f"pivot_{self.names[k]}", value)
+            pivot = append_local_if_composite(builder, f"pivot_{self.names[k]}", value)
             self._append_small_inertia_test(builder, k, pivot)
             constant = self.system.model.parameter_table.is_constant(mass)
             if earlier_columns or not constant or self.system.model.parameter_table.compute_default(mass) <= 0.0:
@@ -406,7 +404,7 @@ class KKT:
             value = add_products(scale, ((L[k, j], W[k, j]) for j in earlier_rows))
             pivot = builder.append_local(f"pivot_{name}", value)
         test, (jump_on_failure, status) = (
-            Test(pivot, ">", (threshold, self._compute_row_size(builder, k, scale))),
+            Test(pivot, ">", (threshold, self._compute_pivot_scale(builder, k, scale))),
             on_failure,
         )
         if k < self.first_friction:
@@ -432,7 +430,7 @@ class KKT:
         z: dict[int, sp.Expr] = {}
         for k in self.elimination.order:
             value = subtract_products(b.get(k, ZERO), ((factor.L[k, j], z[j]) for j in columns[k]))
-            z[k] = append_local_unless_simple(builder, f"{prefix}z_{self.names[k]}", value)
+            z[k] = append_local_if_composite(builder, f"{prefix}z_{self.names[k]}", value)
         builder.begin_section("backward substitution")
         x: dict[int, sp.Expr] = {}
         for k in reversed(self.elimination.order):

@@ -43,7 +43,7 @@ from gudgeon.generator.ir.statements import Call, Declare, DeclareParameters, Gu
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.solvers.linearization import Linearization, LinearizedParts, Pair
-from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
+from gudgeon.generator.solvers.pivots import SINGULAR, is_number_or_signed_symbol
 from gudgeon.generator.solvers.sparsity import choose_elimination
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.switches import ComparedMagnitude
@@ -86,7 +86,7 @@ class Newton:
         """Return the kernel `linearize`, which writes all parts of the linearization at a state to `lin->value`.
 
         It also copies the parameters to `lin`. Sets `parts` (entries as symbols that read `lin->value`), `stick_flags`
-        (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_tables`).
+        (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_entry_tables`).
         """
         builder = self._begin_function(
             "linearize",
@@ -103,7 +103,7 @@ class Newton:
         self.stick_flags = [
             self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
         ]
-        self.tables = self._make_tables(builder)
+        self.tables = self._make_entry_tables(builder)
         builder.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
             *STATE,
@@ -153,7 +153,7 @@ class Newton:
             {w: store_value(x, f"power_t_{w}") for w, x in parts.power_t.items()},
         )
 
-    def _make_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
+    def _make_entry_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
         """Return, by part, the entries of the linearization as (row, column, index, sign).
 
         An entry is sign times element `index` of `lin->value`. Rows are nodes (coordinates, equations, frictions,
@@ -180,8 +180,9 @@ class Newton:
     def _make_matrix_entries(self, builder: KernelBuilder) -> dict[Pair, sp.Expr]:
         """Return the entries of Newton's matrix by (row, column), of both triangles, for the η of the method.
 
-        Rows and columns are nodes: coordinates, constraint equations, frictions, internal states. Numbers and symbols
-        stay, other entries become locals.
+        Rows and columns are nodes: coordinates, constraint equations, frictions, internal states. An entry of the
+        motion or constraint equations is M or Φ_q plus s (V + η Q), with the factor s of `_find_eta_factor`. Numbers
+        and symbols stay, other entries become locals.
         """
         parts = self.parts
         self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**parts.by_v, **parts.by_q}})
@@ -205,7 +206,7 @@ class Newton:
         `index`: its row and column, from which the local is named.
         """
         name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
-        return value if is_simple(value) else builder.append_local(name, value)
+        return value if is_number_or_signed_symbol(value) else builder.append_local(name, value)
 
     def _find_eta_factor(self, node: int) -> sp.Symbol:
         """Return the symbol of the factor, η or η/κ, of the derivatives of the equation `node` in Newton's matrix.
@@ -410,7 +411,11 @@ class Factors:
         self._earlier_pivots: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
     def eliminate_node(self, k: int, later_nodes: Sequence[int]) -> None:
-        """Append pivot k of Newton's matrix with its column of L and row of U; `later_nodes`: the nodes in them."""
+        """Append pivot k of Newton's matrix with its column of L and row of U; `later_nodes`: the nodes in them.
+
+        If the unknown k has an equation that gives it (`newton.equation`), the row of that equation is the pivot row,
+        and row k is eliminated later in its place, for the multiplier.
+        """
         self.inverse[k] = self._invert_pivot(k)
         names, equation = self.newton.names, self.newton.equation.get(k, k)
         for i in later_nodes:
@@ -485,7 +490,7 @@ class Factors:
         A number or ± a symbol other than η and η/κ is unchanged. Any other value becomes the local `name`, which is
         stored in `lin->lu`.
         """
-        is_stored_elsewhere = is_simple(value) and not value.free_symbols & {
+        is_stored_elsewhere = is_number_or_signed_symbol(value) and not value.free_symbols & {
             ETA,
             ETA_ROW,
             ETA_STICK,

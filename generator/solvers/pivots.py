@@ -76,14 +76,14 @@ def make_pivot_guard(
     return Guard(Test(value, ">", bound_factors), count + pivot_number, bool(jumps))
 
 
-def is_simple(value: sp.Expr) -> bool:
+def is_number_or_signed_symbol(value: sp.Expr) -> bool:
     """Return whether a value is a number, a symbol or its negative, which needs no local."""
     return bool(value.is_Number) or is_signed_symbol(value)
 
 
-def append_local_unless_simple(builder: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
+def append_local_if_composite(builder: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
     """Return the value as a new local of that name, or unchanged if it is a number, a symbol or its negative."""
-    return value if is_simple(value) else builder.append_local(name, value)
+    return value if is_number_or_signed_symbol(value) else builder.append_local(name, value)
 
 
 def find_row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:

@@ -213,7 +213,7 @@ def _iterate_titled_names(part: StudyFile) -> Iterator[str]:
     yield from map(str, (*part.scenes, *part.keep, *part.fixed))
     yield from (measure.name for measure in part.measures)
     yield from ("ensemble", "start", *part.starts.ensembles) if part.starts else ()
-    yield from map(str, part.draw.numbers if part.draw else ())
+    yield from map(str, part.draw.distributions if part.draw else ())
     for choice in part.choices:
         yield from (choice.name, *choice.options)
     for axis in (*part.axes, *part.left_out):

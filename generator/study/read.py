@@ -54,7 +54,7 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
     Checked are parameters, zips, choices, measures and stored series of one part. `root` is the part's tree.
     """
     parameter_keys = [*study.fixed, *(key for axis in study.axes for key in axis.columns)]
-    parameter_keys += list(study.draw.numbers) if study.draw else []
+    parameter_keys += list(study.draw.distributions) if study.draw else []
     first_keys: dict[str, Text] = {}
     for key in parameter_keys:
         parameter_name = remove_section_name(str(key))
@@ -346,7 +346,10 @@ def _read_rtol(reader: Reader, root: Map) -> Text | None:
 
 
 def _read_stop_at_events(reader: Reader, root: Map) -> bool:
-    """Return whether runs stop at events, true by default; an error is collected for another word."""
+    """Return the value of the key `stop` (true or false): whether runs stop at events; true without the key.
+
+    An error is collected for any other value, and true is returned.
+    """
     with reader.collect_errors():
         return (
             "stop" not in root or check_word(root["stop"], "stop", root.find_key("stop"), ("true", "false")) == "true"

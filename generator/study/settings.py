@@ -103,12 +103,16 @@ def apply_set_options(
     )
     removed_axes = [replace(axis, columns=removed) for axis, removed in axes_with_removed_columns if removed]
     if draw is not None and (
-        drawn := {key: spread for key, spread in draw.numbers.items() if remove_section_name(key) in set_names}
+        drawn := {
+            key: distribution
+            for key, distribution in draw.distributions.items()
+            if remove_section_name(key) in set_names
+        }
     ):
-        columns = {key: ParameterValues(spread.ends, draw.count) for key, spread in drawn.items()}
+        columns = {key: ParameterValues(distribution.ends, draw.count) for key, distribution in drawn.items()}
         removed_axes.append(Axis(DRAW, next(iter(drawn)).where, columns, grouped=True))
-        others = {key: spread for key, spread in draw.numbers.items() if key not in drawn}
-        draw = replace(draw, numbers=others) if others else None
+        others = {key: distribution for key, distribution in draw.distributions.items() if key not in drawn}
+        draw = replace(draw, distributions=others) if others else None
     return VariedParameters(
         fixed_values, tuple(axis for axis in remaining_axes if axis.columns), draw, tuple(removed_axes)
     )

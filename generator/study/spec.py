@@ -66,7 +66,7 @@ class TrendStatement:
 
 @dataclass(frozen=True)
 class TrendClaim:
-    """Represent a published statement about runs in words; without trials it is not computed, for the reason given."""
+    """Represent a published statement about runs; it is tested by `statements`, or `not_computed` tells why not."""
 
     name: Text
     figure: str
@@ -174,7 +174,7 @@ class Draw:
     count: int
     seed: int
     method: str
-    numbers: Mapping[Text, Distribution]
+    distributions: Mapping[Text, Distribution]
     names: tuple[str, ...]  # all drawn parameters of the file: the points of one do not change if another one is set
 
 

@@ -45,9 +45,9 @@ class CurveOn(sp.Function):
     name, order = CurveOf.name, CurveOf.order
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative by `s` on the same branch; the derivative of the third one is 0.
+        """Return the derivative by `s` (chain rule): that of order + 1 at x on the same branch, times dx/ds.
 
-        Called by SymPy.
+        The result is 0 for order 3: third derivatives of a curve of cubic pieces are constant. Called by SymPy.
         """
         name, order, x, branch = self.args
         rate = differentiate(x, s)

@@ -15,7 +15,7 @@ import sympy as sp
 from gudgeon.generator.mechanism import Quantity, Scene
 from gudgeon.generator.symbols.from_expressions import convert_to_sympy
 from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Place
-from gudgeon.generator.symbols.symbols import OWN_FIELD, Symbols
+from gudgeon.generator.symbols.symbols import PARAMETER_MEMBER, Symbols
 from gudgeon.language.tree import Expr, evaluate, iterate_names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
@@ -108,7 +108,9 @@ class ParameterTable(Freezable):
                 self._add_parameter(f"parameters.{last_name}", last_name, quantity)
         return self.entries[f"parameters.{name}"].symbol
 
-    def _add_parameter(self, address: str, base_name: str, quantity: Quantity, place: Place = OWN_FIELD) -> sp.Symbol:
+    def _add_parameter(
+        self, address: str, base_name: str, quantity: Quantity, place: Place = PARAMETER_MEMBER
+    ) -> sp.Symbol:
         """Add the parameter of a quantity at an address, after those in its expression; return its symbol.
 
         `base_name`: base of the symbol's name; `place`: its storage location in Parameters. Its default is the value
@@ -129,8 +131,8 @@ class ParameterTable(Freezable):
         default = float(evaluate(quantity.value, find_default))
         value = sp.Float(default, 17) if default_expression is None else default_expression
         is_unqualified = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
-        field_base_name = address if is_unqualified else ""
-        symbol = self.symbols.add_symbol(base_name, place, address, field_base_name=field_base_name)
+        member_base_name = address if is_unqualified else ""
+        symbol = self.symbols.add_symbol(base_name, place, address, member_base_name=member_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         self._default_of[symbol] = default
         return symbol
@@ -180,7 +182,7 @@ class ParameterTable(Freezable):
         `base_name`: base of its name; `default`: its value in SI units.
         """
         if address not in self.entries:
-            symbol = self.symbols.add_symbol(base_name, OWN_FIELD, address)
+            symbol = self.symbols.add_symbol(base_name, PARAMETER_MEMBER, address)
             self.entries[address] = ParameterEntry(symbol, address, sp.Float(default, 17), default, dimension)
             self._default_of[symbol] = default
         self.symbols.add_shared_parameter(self.entries[address].symbol)
@@ -196,20 +198,20 @@ class ParameterTable(Freezable):
         base_name: str,
         expression: sp.Expr,
         meaning: str = "",
-        field_base_name: str = "",
+        member_base_name: str = "",
         role: ParameterRole | None = None,
     ) -> sp.Expr:
         """Return the symbol of a derived parameter, which the function `prepare` computes once a run.
 
         A number or a parameter is returned unchanged; an equal expression gets the same symbol. `base_name`: base of
-        its name; `field_base_name`: that of its field in Parameters, if it differs; `role`: its role in a joint or
+        its name; `member_base_name`: that of its field in Parameters, if it differs; `role`: its role in a joint or
         element, or None.
         """
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
         if expression not in self._derived_by:
             symbol = self.symbols.add_definition(
-                base_name, expression, OWN_FIELD, meaning, field_base_name=field_base_name
+                base_name, expression, PARAMETER_MEMBER, meaning, member_base_name=member_base_name
             )
             self.derived[symbol] = expression
             if role is not None:
@@ -219,14 +221,16 @@ class ParameterTable(Freezable):
         return self._derived_by[expression]
 
     def derive_signed_parameter(
-        self, base_name: str, expression: sp.Expr, meaning: str = "", field_base_name: str = ""
+        self, base_name: str, expression: sp.Expr, meaning: str = "", member_base_name: str = ""
     ) -> sp.Expr:
         """Return the derived parameter of an expression, or −s if the opposite expression has the symbol s already.
 
         Opposite arms then share one parameter. The arguments are those of `derive_parameter`.
         """
         opposite = self._derived_by.get(-expression)
-        return self.derive_parameter(base_name, expression, meaning, field_base_name) if opposite is None else -opposite
+        return (
+            self.derive_parameter(base_name, expression, meaning, member_base_name) if opposite is None else -opposite
+        )
 
     def compute_default(self, expression: sp.Expr) -> float:
         """Return the value of a constant expression with every parameter at its default.
@@ -244,7 +248,7 @@ class ParameterTable(Freezable):
         """Return the symbols of all parameters: those of the file in order of first use, then derived ones."""
         return [*(entry.symbol for entry in self.entries.values()), *self.derived]
 
-    def find_field_name(self, symbol: sp.Symbol) -> str:
+    def find_member_name(self, symbol: sp.Symbol) -> str:
         """Return the name of a parameter's field in Parameters."""
         return self.find_place(symbol).member
 

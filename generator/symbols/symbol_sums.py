@@ -29,15 +29,17 @@ _Monomial: TypeAlias = tuple[bool, tuple[_SymbolKey, ...], tuple[sp.Symbol, ...]
 
 def add_products(start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]]) -> sp.Expr:
     """Return start + Σ a b over pairs (a, b) of factors, in SymPy's canonical form."""
-    return _combine(start, factors, False)
+    return _add_or_subtract_products(start, factors, False)
 
 
 def subtract_products(start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]]) -> sp.Expr:
     """Return start − Σ a b over pairs (a, b) of factors, in SymPy's canonical form."""
-    return _combine(start, factors, True)
+    return _add_or_subtract_products(start, factors, True)
 
 
-def _combine(start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]], is_subtracted: bool) -> sp.Expr:
+def _add_or_subtract_products(
+    start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]], is_subtracted: bool
+) -> sp.Expr:
     """Return start − Σ a b over pairs (a, b) of factors if `is_subtracted`, else start + Σ a b.
 
     The fast method needs sums of products of different symbols without like terms; otherwise SymPy's operators are

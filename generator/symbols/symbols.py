@@ -20,7 +20,7 @@ from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
 from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol, make_real_symbol
 from gudgeon.generator.symbols.switches import Switches
 
-OWN_FIELD = Place(PARAMETERS)[""]  # stands for the field of a parameter that is called as the symbol
+PARAMETER_MEMBER = Place(PARAMETERS)[""]  # stands for the field of a parameter that is called as the symbol
 
 
 def make_identifier(base_name: str) -> str:
@@ -131,7 +131,7 @@ class Symbols(Freezable):
         short_names: dict[str, str] = {}
         for name in numbered_names:
             short_name = self._base_of_numbered_name[name]
-            is_free = short_name not in reserved and not self._is_parameter_field(short_name)
+            is_free = short_name not in reserved and not self._is_parameter_member(short_name)
             short_names[name] = (
                 short_name
                 if is_free
@@ -144,7 +144,7 @@ class Symbols(Freezable):
             reserved.add(short_names[name])
         return {name: candidate for name, candidate in short_names.items() if name != candidate}
 
-    def _is_parameter_field(self, name: str) -> bool:
+    def _is_parameter_member(self, name: str) -> bool:
         """Return whether a parameter's field in the struct Parameters has this name."""
         return self._find_place(name) == Place(PARAMETERS)[name]
 
@@ -154,19 +154,20 @@ class Symbols(Freezable):
         return info.place if info else None
 
     def add_symbol(
-        self, base_name: str, place: Place | None = None, meaning: str = "", unit: str = "", field_base_name: str = ""
+        self, base_name: str, place: Place | None = None, meaning: str = "", unit: str = "", member_base_name: str = ""
     ) -> sp.Symbol:
         """Return a new real symbol, with an unused name made from `base_name`, and record its place, meaning and unit.
 
-        `place`: the storage location where it is read; None: it is defined by an expression. With OWN_FIELD it is a
-        field of Parameters, called as `field_base_name`, or as the symbol if that is "".
+        `place`: the storage location where it is read; None: it is defined by an expression. With PARAMETER_MEMBER it
+        is a member of Parameters, called as `member_base_name`, or as the symbol if that is "".
         """
         shared_table = self._shared_table if place and place.is_parameter else None
         name, field_name = (
-            self._make_name_for_both_tables(text, shared_table) if text else "" for text in (base_name, field_base_name)
+            self._make_name_for_both_tables(text, shared_table) if text else ""
+            for text in (base_name, member_base_name)
         )
         symbol = make_real_symbol(name)
-        place = Place(PARAMETERS)[field_name or name] if place == OWN_FIELD else place
+        place = Place(PARAMETERS)[field_name or name] if place == PARAMETER_MEMBER else place
         self.info[symbol] = SymbolInfo(place, meaning, unit)
         if shared_table is not None:
             shared_table.info[symbol] = self.info[symbol]
@@ -191,13 +192,13 @@ class Symbols(Freezable):
         place: Place | None = None,
         meaning: str = "",
         unit: str = "",
-        field_base_name: str = "",
+        member_base_name: str = "",
     ) -> sp.Symbol:
         """Return a new symbol that stands for `expression`, its definition; other arguments are those of `add_symbol`.
 
         A parameter's definition is stored in the shared table too.
         """
-        symbol = self.add_symbol(base_name, place, meaning, unit, field_base_name)
+        symbol = self.add_symbol(base_name, place, meaning, unit, member_base_name)
         self.definitions[symbol] = expression
         if self._shared_table is not None and place is not None and place.is_parameter:
             self._shared_table.definitions[symbol] = expression
@@ -244,7 +245,7 @@ class Symbols(Freezable):
                 result += differentiate(expression, symbol) * inner_derivative
         return result
 
-    def read_at_places(self, value: sp.Expr) -> sp.Expr:
+    def read_from_storage_locations(self, value: sp.Expr) -> sp.Expr:
         """Return the value with each symbol that has a storage location replaced by its `PlaceSymbol`."""
         places = ((s, self.info[s].place) for s in value.free_symbols if s in self.info)
         return value.xreplace({s: PlaceSymbol(place) for s, place in places if place})

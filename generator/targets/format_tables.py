@@ -24,7 +24,7 @@ from gudgeon.generator.field import (
     Field,
     Kind,
 )
-from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.format.sections import MECHANISM_FILE
 from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.language.units import Dimension, find_si_unit
 
@@ -37,7 +37,7 @@ def print_format_tables() -> str:
 
     Called by `make tables`.
     """
-    return "\n".join((*_print_functions_table(), *_print_mapping_tables("The file", FILE, "", set())))
+    return "\n".join((*_print_functions_table(), *_print_mapping_tables("The file", MECHANISM_FILE, "", set())))
 
 
 def _print_functions_table() -> Iterator[str]:

@@ -28,7 +28,7 @@ from gudgeon.generator.field import (
     Field,
     Kind,
 )
-from gudgeon.generator.format.sections import CONTACT, COORDINATES, FILE, FORMAT, SECTIONS
+from gudgeon.generator.format.sections import CONTACT, COORDINATES, FORMAT, MECHANISM_FILE, SECTIONS
 from gudgeon.language.names import IDENTIFIER
 from gudgeon.language.names import MAX_LENGTH as MAX_NAME_LENGTH
 from gudgeon.language.parser import MAX_LENGTH as MAX_EXPRESSION_LENGTH
@@ -56,7 +56,7 @@ def make_schema() -> Json:
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"mechanism file, {FORMAT}",
-        **_make_record_schema(FILE),
+        **_make_record_schema(MECHANISM_FILE),
         "$defs": {
             "name": {"type": "string", "pattern": f"^{_NAME}$", "maxLength": MAX_NAME_LENGTH},
             "number": _NUMBER,
@@ -160,7 +160,7 @@ def _make_record_schema(field: Field) -> Json:
     expected become `oneOf`. In a contact that extends another one, no key of its laws is required.
     """
     properties = _make_field_schemas(field.fields, field.find_field("extends") is None)
-    for inner in field.fields if field is FILE else ():
+    for inner in field.fields if field is MECHANISM_FILE else ():
         if inner.kind in (MAPPING, RECORD) and not inner.required:
             properties[inner.name]["type"] = ["object", "null"]
         elif inner.kind == MAPPING:
@@ -203,8 +203,8 @@ def _make_kind_schema(name: str, kind: Kind) -> Json:
 
     One target is a string, two are a list.
     """
-    item = _make_reference(kind.targets)
-    target_schemas = [item if count == 1 else _make_list_schema(item, count) for count in kind.counts]
+    target_schema = _make_reference(kind.targets)
+    target_schemas = [target_schema if count == 1 else _make_list_schema(target_schema, count) for count in kind.counts]
     targets = target_schemas[0] if len(target_schemas) == 1 else {"anyOf": target_schemas}
     entry_schema = _make_object_schema(
         {name: targets, **_make_field_schemas(kind.fields)}, [name, *_list_required_keys(kind.fields)]

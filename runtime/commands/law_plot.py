@@ -241,10 +241,10 @@ def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> N
     There is one curve if approach and separation agree. The approach speed is APPROACH_SPEED, the largest penetration
     MAX_PENETRATION clearances of STEEL_JOINT.
     """
-    from gudgeon.generator.kinds.laws.built import count_variables_outside_role
+    from gudgeon.generator.kinds.laws.built import count_optional_variables
 
     delta = np.linspace(0.0, MAX_PENETRATION * STEEL_JOINT["c"], N_POINTS)
-    speeds = [APPROACH_SPEED] * count_variables_outside_role(selected_law.law)
+    speeds = [APPROACH_SPEED] * count_optional_variables(selected_law.law)
     curves = {ratio: law(delta, ratio, *(ratio * x for x in speeds))["F_n"] for ratio in RATE_RATIOS}
     are_equal = np.array_equal(curves[1.0], curves[-1.0])
     lines = (

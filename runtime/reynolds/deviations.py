@@ -145,7 +145,7 @@ def make_law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str |
     name: of a film law. keys: its keys, in SI; the viscosity is that of the bearing. Raises UnknownNameError,
     UnknownKeyError, MissingKeyError or BadValueError for a wrong name, key or value.
     """
-    from gudgeon.generator.kinds.laws.built import PAIR, make_law_function
+    from gudgeon.generator.kinds.laws.built import PAIR_QUANTITIES, make_law_function
     from gudgeon.generator.kinds.laws.law import find_laws_of_role
 
     laws, name = find_laws_of_role("film"), check_text(name, "law")
@@ -171,7 +171,7 @@ def make_law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str |
             expected = " or ".join(map(str, option.values))
             raise BadValueError(f"film law {name}: {option.name} is {selected[option.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
-    dimensions = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
+    dimensions = dict(zip(PAIR_QUANTITIES, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
     function = make_law_function(law, numbers, selected, dimensions)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:

@@ -19,7 +19,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.document import Block, Document, EmbeddedHtml, Equation, Paragraph, Table, Text
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.printers import find_fraction_of_pi
 from gudgeon.generator.targets.latex.write import make_primed_symbols_table
@@ -247,7 +247,7 @@ def format_block(block: Block) -> str:
 
 def format_text(text: Text) -> str:
     """Return words and formulas as Markdown: formulas in $…$, other characters escaped."""
-    return "".join(f"${part.latex.strip()}$" if isinstance(part, Name) else escape_markdown(part) for part in text)
+    return "".join(f"${part.latex.strip()}$" if isinstance(part, Formula) else escape_markdown(part) for part in text)
 
 
 def escape_markdown(text: str) -> str:

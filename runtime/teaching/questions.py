@@ -16,21 +16,21 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.symbols.switches import Select
 from gudgeon.generator.targets.latex.document import Block, Equation, make_paragraph, make_row, make_tables
 from gudgeon.generator.targets.latex.kinematics import format_gamma
-from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
+from gudgeon.generator.targets.latex.letters import Formula, make_symbol_name
 from gudgeon.model.compiled import Array
 from gudgeon.teaching.draw_parameters import ROUNDING_TOL
 from gudgeon.teaching.sheet import MAX_OPERATIONS, Question, Subject
 
-PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "ν")
-GAMMA = Name(
+PHI, PHI_Q, NU = Formula(r"\Phi", "Φ"), Formula(r"\Phi_{q}", "Φ_q"), Formula(r"\nu", "ν")
+GAMMA = Formula(
     r"\gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}", "γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt"
 )
 MAX_CELL_WIDTH = 60  # largest number of characters of a formula in a cell
 STATE = (("x", "m"), ("y", "m"), ("theta", "rad"))
-ACCELERATIONS = Name(r"\Phi_{q} \ddot{q} = \gamma", "Φ_q·q̈ = γ")
-KKT = Name(r"M \ddot{q} + \Phi_{q}^{\mathsf{T}} \lambda = g", "M·q̈ + Φ_qᵀ·λ = g")
-BALANCE = Name(r"\Phi_{q}^{\mathsf{T}} \lambda = g - M \ddot{q}", "Φ_qᵀ·λ = g - M·q̈")
-FORCE = Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ")
+ACCELERATIONS = Formula(r"\Phi_{q} \ddot{q} = \gamma", "Φ_q·q̈ = γ")
+KKT = Formula(r"M \ddot{q} + \Phi_{q}^{\mathsf{T}} \lambda = g", "M·q̈ + Φ_qᵀ·λ = g")
+BALANCE = Formula(r"\Phi_{q}^{\mathsf{T}} \lambda = g - M \ddot{q}", "Φ_qᵀ·λ = g - M·q̈")
+FORCE = Formula(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ")
 MAX_SHOWN_ROWS = 40  # largest number of equations that a solution shows
 
 
@@ -62,7 +62,7 @@ def _make_mobility_question(subject: Subject) -> Question:
         title = joint_types()[kind].title if kind else "drive"
         rows.append(make_row(name, f"{title}, has play" if name in play else title, str(n_equations)))
         count += n_equations
-    total = Name(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
+    total = Formula(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
     solved: list[Block] = [
         make_paragraph(f"Each body has 3 coordinates, together {n}. Joints and drives have these rows:"),
         *make_tables(make_row("joint or drive", "type", "rows"), rows),
@@ -139,13 +139,13 @@ def _make_jacobian_question(subject: Subject) -> Question:
         for q in sorted(row.phi_q, key=column_of.__getitem__):
             x = float(values[k - 1, column_of[q]])
             numbers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
-            coordinate_text = subject.notation.format_expression(q)
-            left = Name(rf"\partial \Phi_{{{k}}} / \partial {coordinate_text.latex}", f"∂Φ_{k}/∂{coordinate_text.text}")
+            coordinate = subject.notation.format_expression(q)
+            left = Formula(rf"\partial \Phi_{{{k}}} / \partial {coordinate.latex}", f"∂Φ_{k}/∂{coordinate.text}")
             entry = subject.notation.expand_symbols(row.phi_q[q])
-            formula: str | Name = (
+            formula: str | Formula = (
                 subject.notation.format_expression(entry) if sp.count_ops(entry) <= MAX_OPERATIONS else ""
             )
-            if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
+            if isinstance(formula, Formula) and len(formula.text) > MAX_CELL_WIDTH:
                 below.append(subject.make_equation(left, entry))
                 formula = "below"
             shown = subject.format_number(x, uncertainty=errors[k - 1, column_of[q]])
@@ -258,7 +258,7 @@ def define_abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Blo
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
     """Return the definition of one abbreviation as blocks; that of a drive with smooth steps by their progress s."""
     value = subject.notation.expand_symbols(subject.model.symbols.definitions[symbol])
-    for driven in subject.model.constraints.drive_angles.values():
+    for driven in subject.model.constraints.drive_functions.values():
         if symbol in driven:
             step_blocks = _define_by_steps(subject, symbol, driven)
             return step_blocks or [subject.make_equation(symbol, value)]
@@ -287,7 +287,7 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_of.items()}
     for _ in range(driven.index(symbol)):
         inner = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inner)))
-    names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
+    names = {s: Formula(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
     shown = [
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
@@ -326,10 +326,10 @@ def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
     return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
 
 
-def make_indexed_symbol(quantity: str, index: int) -> Name:
+def make_indexed_symbol(quantity: str, index: int) -> Formula:
     """Return the symbol of a quantity with an index, in LaTeX and as text; `quantity`: key of its letter."""
     name = make_symbol_name(quantity)
-    return Name(f"{name.latex}_{{{index}}}", f"{name.text}_{index}")
+    return Formula(f"{name.latex}_{{{index}}}", f"{name.text}_{index}")
 
 
 def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: bool = False) -> list[Block]:
@@ -394,7 +394,7 @@ def _format_omission(n_rows: int) -> str:
     return "" if n_rows <= MAX_SHOWN_ROWS else f", of whose {n_rows} rows those with the requested unknowns are shown,"
 
 
-def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_of_terms: list[Name]) -> Equation:
+def _make_linear_equation(subject: Subject, left: Formula, factors: Array, symbols_of_terms: list[Formula]) -> Equation:
     """Return the equation left = sum of factors times `symbols_of_terms`, without factors of rounding size."""
     symbols = [sp.Symbol(name.text) for name in symbols_of_terms]
     notation = replace(
@@ -470,7 +470,7 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
     ]
     for k in shown:
         q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
-        what = Name(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
+        what = Formula(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
         blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
     return [*blocks, make_paragraph("and the multipliers are")]
 

@@ -22,7 +22,7 @@ from gudgeon.generator.targets.latex.document import (
     make_row,
     make_tables,
 )
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.mechanism import (
     format_drive_value,
     format_point,
@@ -74,31 +74,31 @@ class Subject:
         """Return the constraint equations of the joints and drives in `owners`, with their numbers, from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
-    def format_number(self, x: float, digits: int = 4, scale: float = 0.0, uncertainty: float = 0.0) -> Name:
+    def format_number(self, x: float, digits: int = 4, scale: float = 0.0, uncertainty: float = 0.0) -> Formula:
         """Return a number as text and LaTeX, rounded to significant digits.
 
         It is 0 below ROUNDING_TOL times `scale`, the size of similar numbers, and below half the `uncertainty` from the
         rounded data. The uncertainty also limits the printed digits.
         """
         if abs(x) <= max(ROUNDING_TOL * scale, 0.5 * uncertainty):
-            return Name("0", "0")
+            return Formula("0", "0")
         if uncertainty > 0.0:
             digits = min(digits, max(1, math.floor(math.log10(abs(x))) - math.ceil(math.log10(uncertainty)) + 1))
         short = float(f"{x:.{digits}g}")
         return self.notation.format_expression(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
 
-    def make_equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
+    def make_equation(self, left: Formula | sp.Symbol, right: sp.Expr) -> Equation:
         """Return the equation left = right in the notation of the document."""
-        name = left if isinstance(left, Name) else self.notation.format_expression(left)
+        name = left if isinstance(left, Formula) else self.notation.format_expression(left)
         return Equation(name, self.notation.format_terms(self.notation.expand_symbols(right)))
 
     def make_value_equation(
-        self, left: Name, x: float, unit: str = "", scale: float = 0.0, uncertainty: float = 0.0
+        self, left: Formula, x: float, unit: str = "", scale: float = 0.0, uncertainty: float = 0.0
     ) -> Equation:
         """Return the equation left = number unit; scale, uncertainty: as for format_number()."""
         number = self.format_number(x, scale=scale, uncertainty=uncertainty)
         sign = unit.replace("²", "^{2}").replace(" ", r" \, ")
-        return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
+        return Equation(left, (Formula(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 
 def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed: int) -> Subject:

@@ -238,7 +238,7 @@ class ComplexStep:
         if joint.clip_ratio:
             ratio = _greatest(-1.0 + 0j, _least(1.0 + 0j, ratio))
         a_i, a_j = R_i + delta / 2, R_j - delta / 2
-        (normal,) = self._law(joint.normal, delta, ratio, *[v_n] * len(joint.normal.variables_outside_role))
+        (normal,) = self._law(joint.normal, delta, ratio, *[v_n] * len(joint.normal.optional_variables))
         tangential = 0.0
         if joint.friction is not None:
             own = len(joint.states)
@@ -257,7 +257,7 @@ class ComplexStep:
         rate = gradient @ np.array([v_n, v_t]) + slope * w_i
         normal, tangent = gradient / steep, np.array([slope / e, 1.0]) / steep
         ratio = 1.0 + 0j if np.isnan(stored) else rate / stored
-        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.variables_outside_role))
+        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.optional_variables))
         arm_j = (R_j - delta / steep / 2) * normal  # from the journal's centre to where both touch
         arm_i = arm_j + np.array([e, 0.0])
         spin_i, spin_j = (w * np.array([-arm[1], arm[0]]) for w, arm in ((w_i, arm_i), (w_j, arm_j)))
@@ -292,7 +292,7 @@ class ComplexStep:
         rate = meeting @ normal
         ratio, along = 1.0 + 0j if np.isnan(stored) else rate / stored, 0.0
         assert joint.normal is not None
-        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.variables_outside_role))
+        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.optional_variables))
         if joint.friction is not None:
             own = len(joint.states)
             along, *bending[:own] = self._law(joint.friction, force, meeting @ tangent, *z[:own])

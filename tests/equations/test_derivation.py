@@ -157,7 +157,7 @@ def test_only_driven_rows_depend_on_time() -> None:
 def test_a_row_that_mixes_time_and_coordinates() -> None:
     """A row made of a coordinate and a drive's angle has ∂²Φ/∂q∂t, which γ counts twice."""
     model, h = press("ideal"), 1e-30
-    body, angle = model.bodies[0], model.constraints.drive_angles["crank1"][0]
+    body, angle = model.bodies[0], model.constraints.drive_functions["crank1"][0]
     cos, _ = model.geometry.find_cos_and_sin(body)
     phi = body.x * angle**2 + cos * body.y * angle
     row = model.constraints._derive_row("mixed", "mixed", "joint", "m", phi, [body])

@@ -16,8 +16,8 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.kinds.laws.law import (
+    OPTIONAL_VARIABLES,
     VARIABLES,
-    VARIABLES_OUTSIDE_ROLE,
     Law,
     LawInputs,
     PairSymbols,
@@ -152,7 +152,7 @@ def passive(own: Vectors, count: int, seed: int = 1) -> Array:
     law, state = own.law, random(own.law, count, seed)
     if law.role == "normal":  # the rest is elastic
         moving = own(*state)["F_n"]
-        rates = {"ratio", *VARIABLES_OUTSIDE_ROLE["normal"]}
+        rates = {"ratio", *OPTIONAL_VARIABLES["normal"]}
         still = own(*(0.0 * x if name in rates else x for name, x in zip(law.variables, state, strict=True)))["F_n"]
         rate = state[law.variables.index("deltadot" if law.name == "kelvin_voigt" else "ratio")]
         assert (still >= 0.0).all() and np.isfinite(moving).all()
@@ -356,4 +356,4 @@ def test_no_joint_jumps_where_film_and_contact_meet(discs: Subject) -> None:
 
 def test_variables_are_drawn_for_every_role() -> None:
     known = {"delta", "ratio", "deltadot", "F_n", "v_t", "epsilon", "w_n", "w_t"}
-    assert {x for some in (*VARIABLES.values(), *VARIABLES_OUTSIDE_ROLE.values()) for x in some} <= known
+    assert {x for some in (*VARIABLES.values(), *OPTIONAL_VARIABLES.values()) for x in some} <= known

@@ -53,7 +53,7 @@ def values(law: Law) -> dict[str, float]:
         for relation, bound, _ in parameter.bounds:
             number = selected[bound] if isinstance(bound, str) else bound
             low, high = (max(low, number), high) if relation.startswith(">") else (low, min(high, number))
-        if parameter.any_dimension:  # a stiffness, in its own unit
+        if parameter.accepts_any_dimension:  # a stiffness, in its own unit
             low = 1e8
         inside = low + 0.1 if math.isinf(high) else low + 0.9 * (high - low)
         selected[parameter.name] = inside if parameter.default is None else float(parameter.default)

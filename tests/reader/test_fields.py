@@ -17,7 +17,7 @@ import gudgeon.generator.kinds.laws as laws
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError, UnknownNameError
 from gudgeon.generator.equations.play import VELOCITY_FLOOR
 from gudgeon.generator.field import BODY, FLAG, KINDS, LAW, MAPPING, NUMBER, RECORD, VECTOR, WORD, Field
-from gudgeon.generator.format.sections import CONTACT, FILE, SIMULATE
+from gudgeon.generator.format.sections import CONTACT, MECHANISM_FILE, SIMULATE
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws import law
@@ -48,7 +48,7 @@ def below(of: Field, path: str = "") -> Iterator[tuple[str, tuple[Field, ...]]]:
         yield from ((f"{path}({name})", kind.fields) for name, kind in of.kinds().items())
 
 
-MAPPINGS = dict(below(FILE))
+MAPPINGS = dict(below(MECHANISM_FILE))
 
 
 def test_every_place_is_looked_at() -> None:

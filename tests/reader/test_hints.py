@@ -15,7 +15,7 @@ from gudgeon.errors import (
     UnknownKeyError,
     UnknownNameError,
 )
-from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.format.sections import MECHANISM_FILE
 from gudgeon.generator.mechanism import Mechanism
 from gudgeon.generator.reader.materials import EXAMPLE_SECTION
 from gudgeon.generator.reader.read import read_mechanism
@@ -66,7 +66,7 @@ def refused(old: str, new: str) -> InputError:
 KINDS = [
     (section, other, kind)
     for section in ("joints", "drives", "forces")
-    for kind, of in next(f for f in FILE.fields if f.name == section).entry.kinds().items()  # type: ignore[union-attr, misc]
+    for kind, of in next(f for f in MECHANISM_FILE.fields if f.name == section).entry.kinds().items()  # type: ignore[union-attr, misc]
     for other in of.foreign_names
 ]
 

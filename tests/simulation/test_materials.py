@@ -227,7 +227,7 @@ def test_equations_in_numpy_take_names(scenes: Scenes, scene: str, parameters: d
     slots = model.model.parameter_table
     for k, slot in enumerate(simulation.source.slots):
         if not slot.words:
-            assert getattr(here, slots.find_field_name(slots.entries[slot.address].symbol)) == given[k], slot.address
+            assert getattr(here, slots.find_member_name(slots.entries[slot.address].symbol)) == given[k], slot.address
     np.testing.assert_array_equal(model.mass(here), simulation.compiled.mass(given))
     with pytest.raises(UnknownNameError, match="bronse"):
         model.prepare({JOURNAL: "bronse"})

@@ -15,7 +15,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import render_equations_text
-from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex
+from gudgeon.generator.targets.latex.letters import Formula, make_name_from_latex
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.to_html import convert_to_mathml
 from tests.equations.models import numeric, random_model, random_state
@@ -234,7 +234,7 @@ def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     ],
 )
 def test_letters_that_are_given_in_latex(latex: str, text: str) -> None:
-    assert make_name_from_latex(latex) == Name(latex, text)
+    assert make_name_from_latex(latex) == Formula(latex, text)
 
 
 def test_a_space_stands_between_a_function_and_what_it_is_of() -> None:

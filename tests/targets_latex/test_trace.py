@@ -161,7 +161,7 @@ def test_lit_lines_of_the_textbooks_function(scene: str) -> None:
         alone = run(own, lit, state)
         assert {f"phi_{name}_", f"phi_dot_{name}_", f"rhs_{name}_"} <= set(alone)
         numbers = {
-            s: state["p"][found.model.parameter_table.find_field_name(s)]
+            s: state["p"][found.model.parameter_table.find_member_name(s)]
             for s in found.model.parameter_table.list_symbols()
         }
         at = {**dict(zip(found.model.q, state["q"], strict=True)), **numbers, found.model.t: state["t"]}

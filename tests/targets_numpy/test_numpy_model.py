@@ -70,7 +70,7 @@ def check(simulation: Simulation) -> None:
     joints, frictions = len(simulation.source.clearances), len(simulation.source.frictions)
     numbers = model.prepare()
     slots = model.model.parameter_table
-    names = [slots.find_field_name(slots.entries[slot.address].symbol) for slot in simulation.source.slots]
+    names = [slots.find_member_name(slots.entries[slot.address].symbol) for slot in simulation.source.slots]
     in_c = dict(zip([*names, *(f"{name}_" for name in simulation.source.derived)], p.tolist(), strict=True))
     shared = [name for name in vars(numbers) if name in in_c]
     assert set(names) <= set(shared)

@@ -32,7 +32,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
     return [along - joint_fields.define_profile("profile", first_frame.theta, joint_fields.body_angle("carrier"))]
 
 
-def find_gap_points(joint: Any, residuals: Any) -> Any:
+def find_closure_error_points(joint: Any, residuals: Any) -> Any:
     """Return the follower's point and the point where the profile requires it, (2,) each in ground axes (m).
 
     joint: the joint at a configuration; residuals: the values of its constraint equations (m).
@@ -61,6 +61,6 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(gap=find_gap_points),
+    Symbol(gap=find_closure_error_points),
     foreign_names=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
 )

@@ -39,7 +39,7 @@ def find_middle(joint: Any) -> Any:
     return 0.5 * (joint.first + joint.second)
 
 
-def find_gap_points(joint: Any, residuals: Any) -> Any:
+def find_closure_error_points(joint: Any, residuals: Any) -> Any:
     """Return the ideal end point of the rod, at its length from the first point, and the second point, (2,) each.
 
     Both are in ground axes (m). joint: the joint at a configuration; the residuals are not used.
@@ -56,6 +56,6 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, find_middle, 0.5, find_gap_points),
+    Symbol(draw_symbol, find_middle, 0.5, find_closure_error_points),
     foreign_names=("link", "rod", "massless_rod", "coupler"),
 )

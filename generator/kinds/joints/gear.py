@@ -60,7 +60,7 @@ def draw_symbol(pen: Any) -> None:
     pen.add_disc("mark", find_pitch_point(pen), 0.25 * pen.unit)
 
 
-def find_gap_points(joint: Any, residuals: Any) -> Any:
+def find_closure_error_points(joint: Any, residuals: Any) -> Any:
     """Return the ends of the arc by which the wheels have slipped, (2,) each in ground axes (m).
 
     The arc is drawn as a line across that of the centres. joint: the joint at a configuration; residuals: the arc (m).
@@ -83,7 +83,7 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, find_pitch_point, 0.3, find_gap_points, find_radii),
+    Symbol(draw_symbol, find_pitch_point, 0.3, find_closure_error_points, find_radii),
     joins="bodies",
     foreign_names=("gears", "gear_pair", "spur", "rolling", "mesh"),
 )

@@ -39,13 +39,13 @@ def find_sliding_point(joint: Any) -> Any:
     return joint.slider
 
 
-def find_gap_between_points(joint: Any, residuals: Any) -> Any:
-    """Return the two points of a joint that holds them together, as the ends of its gap."""
+def find_closure_error_between_points(joint: Any, residuals: Any) -> Any:
+    """Return the two points of a joint that holds them together: the ends of its closure error where it is open."""
     return joint.first, joint.second
 
 
-def find_gap_to_line(joint: Any, residuals: Any) -> Any:
-    """Return the sliding point and the nearest point of its line, as the ends of a joint's gap."""
+def find_closure_error_to_line(joint: Any, residuals: Any) -> Any:
+    """Return the sliding point and the nearest point of its line: the ends of the closure error of an open joint."""
     return joint.slider, joint.on_line + float((joint.slider - joint.on_line) @ joint.along) * joint.along
 
 

@@ -10,7 +10,13 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import vector
-from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, find_gap_to_line, find_sliding_point
+from gudgeon.generator.kinds.joints.joint_type import (
+    JointType,
+    Slide,
+    Symbol,
+    find_closure_error_to_line,
+    find_sliding_point,
+)
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -46,7 +52,7 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, find_sliding_point, gap=find_gap_to_line),
+    Symbol(draw_symbol, find_sliding_point, gap=find_closure_error_to_line),
     Slide("direction", "second"),
     reaction_at="first",
     foreign_names=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),

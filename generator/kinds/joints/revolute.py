@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_gap_between_points
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_closure_error_between_points
 
 
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
@@ -34,7 +34,7 @@ JOINT = JointType(
     ("m", "m"),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, gap=find_gap_between_points),
+    Symbol(draw_symbol, gap=find_closure_error_between_points),
     carries=("x", "y"),
     foreign_names=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
 )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import number
-from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_gap_between_points
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, find_closure_error_between_points
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -33,7 +33,7 @@ JOINT = JointType(
     ("m", "m", "rad"),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, gap=find_gap_between_points),
+    Symbol(draw_symbol, gap=find_closure_error_between_points),
     carries=("x", "y"),
     foreign_names=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
 )

@@ -11,7 +11,13 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import number, vector
-from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, find_gap_to_line, find_sliding_point
+from gudgeon.generator.kinds.joints.joint_type import (
+    JointType,
+    Slide,
+    Symbol,
+    find_closure_error_to_line,
+    find_sliding_point,
+)
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -56,7 +62,7 @@ JOINT = JointType(
     ("m", "rad"),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, find_sliding_point, 1.5, find_gap_to_line),
+    Symbol(draw_symbol, find_sliding_point, 1.5, find_closure_error_to_line),
     Slide("axis", "first"),
     carries=("offset",),
     foreign_names=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),

@@ -23,7 +23,7 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
 from gudgeon.generator.kinds.laws.registered import ORIGINS, find_error_location, format_exception, format_law_prefix
 from gudgeon.language.functions import IN_SYMPY
 
-PAIR = tuple(PairSymbols.__annotations__)
+PAIR_QUANTITIES = tuple(PairSymbols.__annotations__)
 _MAX_CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 
@@ -77,7 +77,7 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
     except (LawError, KeyboardInterrupt):
         raise
     except BaseException as error:
-        location = find_error_location(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
+        location = find_error_location(error, ORIGINS[law.name].display_path) if law.name in ORIGINS else None
         hint = f"build gets {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
         raise _make_law_error(law, f"build raised {format_exception(error)}", hint, location) from error
     results = _find_result_names(law, equations_by_name)
@@ -124,7 +124,7 @@ def probe_law(law: Law, options: Mapping[str, str | bool], parameter_names: Iter
     inputs = LawInputs(
         {name: _make_real_symbol(f"probe_{name}") for name in parameter_names},
         options,
-        PairSymbols(**{name: _make_real_symbol(f"probe_{name}") for name in PAIR}),
+        PairSymbols(**{name: _make_real_symbol(f"probe_{name}") for name in PAIR_QUANTITIES}),
         {name: sp.Symbol(name, real=True) for name in law.variables},
         derive,
     )
@@ -241,7 +241,7 @@ def _check_expression(
                 law, f"{label} {fault}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0"
             )
         is_basic = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
-        is_unevaluated = type(part).__name__ == "Unevaluated"  # created by `whole` in a layer above
+        is_unevaluated = type(part).__name__ == "Unevaluated"  # created by `keep_unevaluated` in a layer above
         if (
             not is_basic
             and not is_unevaluated
@@ -255,7 +255,7 @@ def _check_expression(
 def _list_inputs_of_law(law: Law) -> str:
     """Return a phrase that lists what `build` may use: variables, parameters and the pair."""
     numbers = ", ".join(field_of_law.name for field_of_law in law.parameters) or "none"
-    return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR)}"
+    return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR_QUANTITIES)}"
 
 
 def _make_law_error(law: Law, message: str, hint: str = "", location: Any = None) -> LawError:
@@ -328,6 +328,6 @@ def make_law_function(
     return compute_results
 
 
-def count_variables_outside_role(law: Law) -> int:
+def count_optional_variables(law: Law) -> int:
     """Return the number of variables outside the role, which lie between those of the role and internal states."""
-    return len(law.variables_outside_role)
+    return len(law.optional_variables)

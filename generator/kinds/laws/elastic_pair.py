@@ -49,9 +49,14 @@ def make_pair_stiffness(inputs: LawInputs) -> Any:
     radius = sp.sqrt(pair.R_j) if is_flat else sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + signed_radius))
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
-    else:  # E_i/E*, in wholes: two that hold the numbers of one material give its bits
-        compliance_i, compliance_j = (inputs.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-        K = sp.Rational(4, 3) * pair.E_i * radius / (compliance_i + compliance_j * inputs.whole(pair.E_i / pair.E_j))
+    else:  # unevaluated, so that equal numbers give exactly the result of one material
+        compliance_i, compliance_j = (inputs.keep_unevaluated(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+        K = (
+            sp.Rational(4, 3)
+            * pair.E_i
+            * radius
+            / (compliance_i + compliance_j * inputs.keep_unevaluated(pair.E_i / pair.E_j))
+        )
     return inputs.derive("K", K, "contact stiffness")
 
 
@@ -63,8 +68,8 @@ def make_contact_modulus(inputs: LawInputs) -> Any:
     pair = inputs.pair
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         return pair.E_i / (2 * (1 - pair.nu_i**2))
-    compliance_i, compliance_j = (inputs.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-    return pair.E_i / (compliance_i + compliance_j * inputs.whole(pair.E_i / pair.E_j))
+    compliance_i, compliance_j = (inputs.keep_unevaluated(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+    return pair.E_i / (compliance_i + compliance_j * inputs.keep_unevaluated(pair.E_i / pair.E_j))
 
 
 CYLINDER_FIELDS: tuple[Field, ...] = (RESTITUTION, DISSIPATION, PULLS)
@@ -76,12 +81,12 @@ _LIMIT_SMOOTHING = (
 
 
 def make_cylinder_force(inputs: LawInputs, log_constant: int, max_penetration_ratio: Any) -> dict[str, Any]:
-    """Return the steps to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
+    """Return the equations by name up to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
 
-    F_n contains the hysteresis factor of the option `dissipation`. `log_constant` is k in δ = u (ln(4 c/u) + k). The
-    steps contain `N_NEWTON_STEPS` unrolled iterations, without a test of convergence. A run stops beyond the
-    penetration `max_penetration_ratio` times the clearance. That limit, the stiffness and 4 c become derived
-    parameters.
+    δ = u (ln(4 c/u) + k), with k the argument `log_constant`, is solved for p = δ/u: p − ln p = k − ln(δ/(4 c)), and
+    F_n = K δ/p times the hysteresis factor of the option `dissipation`. The equations contain `N_NEWTON_STEPS` unrolled
+    iterations, without a test of convergence. A run stops beyond the penetration `max_penetration_ratio` times the
+    clearance. That limit, the stiffness K and 4 c become derived parameters.
     """
     import sympy as sp
 

@@ -46,7 +46,9 @@ def compute_fitted_coefficient(s: Any, ratio: Any, n: Sequence[float]) -> Any:
 def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
     """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
 
-    T0 is the shear torque per unit ω_j − ω_i (N·m·s). The results and their abbreviations are equations by name.
+    They are −∂V/∂w_n and −∂V/∂w_t of the potential V = S q² (a_0 + a_1 x + a_2 x² + a_3 x³), with q² = w_n² + (1 − ε²)
+    w_t² and x = ε w_n/q. T0 is the shear torque per unit ω_j − ω_i (N·m·s). The results and their abbreviations are
+    equations by name.
     """
     import sympy as sp
 

@@ -38,8 +38,8 @@ class PairSymbols:
 class LawInputs:
     """Contain the arguments of a law's `build`: its parameters, the pair, and the variables of its role.
 
-    `derive(name, expression, meaning)` returns the symbol of a constant that is computed once a run; `whole(x)` keeps
-    SymPy from expanding x (symbols/unevaluated.py).
+    `derive(name, expression, meaning)` returns the symbol of a constant that is computed once a run;
+    `keep_unevaluated(x)` keeps SymPy from expanding x (symbols/unevaluated.py).
     """
 
     parameters: Mapping[str, Any]
@@ -47,7 +47,7 @@ class LawInputs:
     pair: PairSymbols
     variables: Mapping[str, Any]
     derive: Callable[[str, Any, str], Any]
-    whole: Callable[[Any], Any] = lambda x: x
+    keep_unevaluated: Callable[[Any], Any] = lambda x: x
 
 
 # The variables of the laws of a role.
@@ -58,7 +58,7 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
     "mixed": ("delta",),  # δ > 0 (m)
 }
 # Further variables of the role that a law may read.
-VARIABLES_OUTSIDE_ROLE: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
+OPTIONAL_VARIABLES: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
 CONSTRAINT_VARIABLES = (
     "held_force",
 )  # N, a law of rigid surfaces reads it instead: the constraint force that keeps e = c
@@ -127,12 +127,12 @@ class Law:
     @property
     def variables(self) -> tuple[str, ...]:
         """Return the names of the variables of `build`: those of its role, those outside it, internal states."""
-        return (*VARIABLES[self.role], *self.variables_outside_role, *(state.name for state in self.states))
+        return (*VARIABLES[self.role], *self.optional_variables, *(state.name for state in self.states))
 
     @property
-    def variables_outside_role(self) -> tuple[str, ...]:
+    def optional_variables(self) -> tuple[str, ...]:
         """Return the variables that `build` may read in addition to those of its role."""
-        return CONSTRAINT_VARIABLES if self.rigid else VARIABLES_OUTSIDE_ROLE.get(self.role, ())
+        return CONSTRAINT_VARIABLES if self.rigid else OPTIONAL_VARIABLES.get(self.role, ())
 
     @property
     def results(self) -> tuple[str, ...]:

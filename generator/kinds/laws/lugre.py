@@ -24,7 +24,8 @@ from gudgeon.language.units import make_dimension
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t and the rate of the bristle state, as equations by name.
 
-    The rate is z_rate = v_t − σ_0 |v_t| z/g_v (m/s).
+    F_t = −F_n (σ_0 z + σ_1 z_rate) and z_rate = v_t − σ_0 |v_t| z/g_v (m/s), with g_v = μ + (μ_s − μ) exp(−(v_t/v_s)²).
+    The deflection μ_s/σ_0 at which sliding begins becomes a derived parameter.
     """
     import sympy as sp
 

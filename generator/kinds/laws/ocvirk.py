@@ -1,4 +1,4 @@
-"""Ocvirk's film of a short bearing with squeeze motion; only the half with positive pressure contributes.
+"""Ocvirk's film of a short bearing with squeeze motion: the half film with positive pressure, or the full film.
 
     (F_r, F_t) = S ∫ (½ ω_s ε sin φ − ε̇ cos φ)(cos φ, sin φ)/(1 + ε cos φ)³ dφ,  φ₁ … φ₁ + π
     S = μ R_j L³/c²,   φ₁ = atan2(ε̇, ½ ω_s ε)

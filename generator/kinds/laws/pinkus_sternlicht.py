@@ -30,7 +30,8 @@ from gudgeon.generator.kinds.laws.roles import (
 def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
     """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
 
-    T0 is the shear torque per unit ω_j − ω_i (N·m·s). The results and their abbreviations are equations by name.
+    T0 is the shear torque per unit ω_j − ω_i (N·m·s). The results and their abbreviations are equations by name. With
+    the option `as_printed` the sign of F_r changes where w_n < 0.
     """
     import sympy as sp
 

@@ -38,7 +38,7 @@ class Origin:
     computed.
     """
 
-    typed: str
+    display_path: str
     file: str
     key: str
 
@@ -72,7 +72,7 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
 
 def format_law_prefix(name: object, origin: Origin | None) -> str:
     """Return the beginning of an error about a law: its file and name, each if it is known."""
-    file = f"{origin.typed}: " if origin is not None and origin.typed else ""
+    file = f"{origin.display_path}: " if origin is not None and origin.display_path else ""
     return f"{file}law {name}: " if isinstance(name, str) else file
 
 
@@ -185,7 +185,7 @@ def _check_law_declaration(law: Law, origin: Origin) -> None:
         )
     known_origin = ORIGINS.get(law.name)
     if known_origin is not None and known_origin.file != origin.file:
-        origin_text = f"from {known_origin.typed}" if known_origin.typed else "from Python"
+        origin_text = f"from {known_origin.display_path}" if known_origin.display_path else "from Python"
         raise LawError(f"another law of this name is registered {origin_text}", hint="give one of them another name")
     _require_condition(law.role in RESULTS, f"unknown role {law.role!r}", format_name_hint(str(law.role), RESULTS))
     _require_condition(

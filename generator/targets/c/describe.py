@@ -246,9 +246,9 @@ def _describe_file_expressions(model: Model) -> Iterator[ExpressionInfo]:
         if any(name.path == "t" or "." in name.path for name in iterate_names(quantity.value)):
             yield _describe_file_expression(quantity)
     zeros = {
-        one.address: one
-        for one in iterate_quantities(scene)
-        if one.is_zero and one.address not in model.parameter_table.entries
+        zero_quantity.address: zero_quantity
+        for zero_quantity in iterate_quantities(scene)
+        if zero_quantity.is_zero and zero_quantity.address not in model.parameter_table.entries
     }
     yield from map(_describe_file_expression, zeros.values())
 

@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kernels.play import JointFunctions
-from gudgeon.generator.kernels.program import Methods, Program
+from gudgeon.generator.kernels.program import IntegratorFunctions, Program
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.solvers.contact_slopes import read_parameters_from_struct
+from gudgeon.generator.solvers.contact_derivatives import read_parameters_from_struct
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import print_curve_tables
-from gudgeon.generator.targets.c.newton import STATE, print_shared_slopes
+from gudgeon.generator.targets.c.newton import STATE, print_shared_force_derivatives
 from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, print_state_rates
 
 MAIN = "lanes.c"
@@ -40,7 +40,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     """
     assert program.tree
     model = program.model
-    parameters = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
+    parameters = [model.parameter_table.find_member_name(symbol) for symbol in model.parameter_table.list_symbols()]
     if program.kinematics:
         return {MAIN: _print_kinematic_file(program, render, parameters)}
     assert program.methods
@@ -48,7 +48,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
         *map(lanes_printer.print_kernel, program.laws),
         *(_print_joint_in_lanes(joint, render, model.law_states) for joint in program.joints),
     ]
-    kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_correction_kernel)
+    kernels = (*program.tree.unvectorized_kernels, program.methods.unvectorized_correction_kernel)
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
     text = "\n".join([*joint_functions, *map(lanes_printer.print_motion_kernel, kernels_in_lanes)])
     methods = _print_linearized_equations(program.joints, program.methods, render, model.law_states)
@@ -79,8 +79,8 @@ def _print_kinematic_file(program: Program, render: Render, parameters: Sequence
     `parameters`: names of the fields of Parameters, of which LaneParameters has one vector each.
     """
     assert program.tree and program.kinematics
-    motion = [kernel for kernel in program.tree.unpaired_kernels if kernel.name == "reduced_dynamics"]
-    kernels = [*motion, *program.kinematics.unpaired_kernels]
+    motion = [kernel for kernel in program.tree.unvectorized_kernels if kernel.name == "reduced_dynamics"]
+    kernels = [*motion, *program.kinematics.unvectorized_kernels]
     text = "\n".join(map(lanes_printer.print_motion_kernel, kernels))
     return render(
         "lanes.c.jinja",
@@ -124,7 +124,7 @@ def _print_joint_in_lanes(joint: JointFunctions, render: Render, n_states: int) 
 
 
 def _print_linearized_equations(
-    joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int
+    joints: Sequence[JointFunctions], methods: IntegratorFunctions, render: Render, n_states: int
 ) -> str:
     """Return the linearized equations of motion and Newton's matrix for lanes, without the index tables of newton.c.
 
@@ -133,7 +133,11 @@ def _print_linearized_equations(
     """
     newton = methods.newton
     select_slopes = _SELECT_SLOPES.replace("i < 4", f"i < {4 + n_states}").replace("k < 5", f"k < {5 + n_states}")
-    slopes = [print_shared_slopes(joints, render, "Lanes", "LaneSlopes", n_states) + select_slopes] if joints else []
+    slopes = (
+        [print_shared_force_derivatives(joints, render, "Lanes", "LaneSlopes", n_states) + select_slopes]
+        if joints
+        else []
+    )
     slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         slopes.append(

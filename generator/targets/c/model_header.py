@@ -86,7 +86,7 @@ def list_size_macros(program: Program, bounds: Kernel | None) -> Sizes:
         _list_linkage_sizes(program)
         | _list_motion_sizes(program)
         | _list_monitoring_sizes(program, bounds)
-        | _list_start_sizes(program)
+        | _list_initial_condition_sizes(program)
     )
 
 
@@ -205,10 +205,11 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     return sizes
 
 
-def _list_start_sizes(program: Program) -> Sizes:
+def _list_initial_condition_sizes(program: Program) -> Sizes:
     """Return {macro: (value, meaning)} of the coordinates that the start guesses or sets and of the rates that it sets.
 
-    N_ECCENTRICITIES, the number of specified eccentricities of journals, exists only if there are any.
+    GUESSED_POINTS is a flag: some guesses are coordinates of points. N_ECCENTRICITIES, the number of specified
+    eccentricities of journals, exists only if there are any.
     """
     start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
     eccentricity_constraints = find_eccentricity_rows(program.model)
@@ -435,7 +436,7 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
         (
             meanings[name],
             name,
-            [printer.print_expression(model.symbols.read_at_places(sp.sympify(x))) for x in joint_values],
+            [printer.print_expression(model.symbols.read_from_storage_locations(sp.sympify(x))) for x in joint_values],
         )
         for name, joint_values in values.items()
     ]

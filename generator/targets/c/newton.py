@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping, Sequence
 from gudgeon.generator.equations.contact_steps import beta_i
 from gudgeon.generator.equations.play import Clearance, Contour
 from gudgeon.generator.kernels.play import JointFunctions
-from gudgeon.generator.kernels.program import Methods
+from gudgeon.generator.kernels.program import IntegratorFunctions
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.solvers.contact_slopes import CONTOUR_INPUTS, read_parameters_from_struct
+from gudgeon.generator.solvers.contact_derivatives import CONTOUR_INPUTS, read_parameters_from_struct
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
@@ -48,7 +48,9 @@ def print_newton_functions(newton: Newton, render: Render) -> str:
     )
 
 
-def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int) -> str:
+def print_tangent_functions(
+    joints: Sequence[JointFunctions], methods: IntegratorFunctions, render: Render, n_states: int
+) -> str:
     """Return the C function `tangent_<joint>_` of every joint with play, after the shared derivatives of laws.
 
     It computes the derivatives of a joint's force by position and velocity. Contours and walls of guides have their own
@@ -58,7 +60,7 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
         return ""
     contours = any(joint.clearance.contour for joint in joints)
     dimensions = {"rows": 4 + n_states, "columns": 5 + n_states}
-    texts = [CONTOURS * contours + print_shared_slopes(joints, render, "double", "PinSlopes", n_states)]
+    texts = [CONTOURS * contours + print_shared_force_derivatives(joints, render, "double", "PinSlopes", n_states)]
     texts += [render("play/contour_slopes.c.jinja")] * contours
     texts += map(functions.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
@@ -70,7 +72,7 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
             )
             continue
         clearance_parameter = f"p->{clearance.pair.c}"
-        code = _print_slope_selection(clearance, clearance_parameter, methods.derivative_calls[clearance.name])
+        code = _print_derivative_selection(clearance, clearance_parameter, methods.derivative_calls[clearance.name])
         if clearance.wall:
             rise = print_expression(read_parameters_from_struct(methods.newton.system.model, clearance.wall.rise))
             texts.append(
@@ -108,7 +110,7 @@ def _print_contour_tangent(
     )
 
 
-def print_shared_slopes(
+def print_shared_force_derivatives(
     joints: Sequence[JointFunctions], render: Render, number_type: str, slopes_type: str, n_states: int
 ) -> str:
     """Return the C functions that turn derivatives of contact forces to ground axes and blend film with dry contact.
@@ -131,7 +133,7 @@ def print_shared_slopes(
     return render("play/pin_slopes.c.jinja", blending=blending, **substitutions) + wall_slopes
 
 
-def _print_slope_selection(
+def _print_derivative_selection(
     clearance: Clearance, clearance_parameter: str, calls: Mapping[str, SharedFunctionCall]
 ) -> str:
     """Return the C code that selects the derivatives of dry contact, film or their blend, as in the joint's force.

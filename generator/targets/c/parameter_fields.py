@@ -8,7 +8,7 @@ from fractions import Fraction
 import sympy as sp
 
 from gudgeon.generator.field import Field
-from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.format.sections import MECHANISM_FILE
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.targets.c.printer import sanitize_comment
 from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
@@ -32,7 +32,7 @@ def list_parameter_fields(parameter_table: ParameterTable) -> list[tuple[str, st
             continue
         is_angle = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
         unit = "rad" if is_angle else _find_coefficient_meaning(entry.address) or format_dimension(entry.dimension)
-        name = sizes.get(entry.symbol, parameter_table.find_field_name(entry.symbol))
+        name = sizes.get(entry.symbol, parameter_table.find_member_name(entry.symbol))
         address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
         fields.append((name, sanitize_comment(f"{address}, {unit}")))
     for symbol, value in parameter_table.derived.items():
@@ -40,7 +40,7 @@ def list_parameter_fields(parameter_table: ParameterTable) -> list[tuple[str, st
         dimension = dimensions[symbol]
         comment_parts = (parameter_table.symbols.info[symbol].meaning, format_dimension(dimension) if dimension else "")
         fields.append(
-            (parameter_table.find_field_name(symbol), sanitize_comment(", ".join(filter(None, comment_parts))))
+            (parameter_table.find_member_name(symbol), sanitize_comment(", ".join(filter(None, comment_parts))))
         )
     return fields
 
@@ -50,10 +50,10 @@ def _find_coefficient_meaning(address: str) -> str:
 
     The comment of its field states the meaning instead of a unit. "" is returned for other addresses.
     """
-    field: Field | None = FILE if address.startswith("contacts.") else None
+    field: Field | None = MECHANISM_FILE if address.startswith("contacts.") else None
     for part in address.split("."):
         field = field and field.find_field(part)
-    return field.meaning if field and field.any_dimension else ""
+    return field.meaning if field and field.accepts_any_dimension else ""
 
 
 def format_dimension(dimension: Dimension) -> str:

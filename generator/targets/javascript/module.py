@@ -61,7 +61,7 @@ def print_equations_script(program: Program) -> str:
     methods = [*tree_methods.values(), *methods]  # the order of the similar C, with which the page is compressed
     kernels += [dynamics, *(kernel for kernel in _list_state_kernels(program) if kernel.name in tree_methods)]
     method_text = ",\n".join(methods)
-    members = map(model.parameter_table.find_field_name, model.parameter_table.list_symbols())
+    members = map(model.parameter_table.find_member_name, model.parameter_table.list_symbols())
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     description = {
         "parameterIndices": {member: k for k, member in enumerate(members) if member in members_read},

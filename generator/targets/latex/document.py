@@ -15,11 +15,11 @@ from typing import TypeAlias
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 
 COLUMN_GAP = 4  # columns without a letter between parts of a sketch
 
-Text: TypeAlias = tuple[str | Name, ...]  # words and formulas in one line
+Text: TypeAlias = tuple[str | Formula, ...]  # words and formulas in one line
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class Paragraph:
 class Equation:
     """Represent an equation left = terms; a line may break before a term."""
 
-    left: Name
-    terms: tuple[Name, ...]
+    left: Formula
+    terms: tuple[Formula, ...]
     tokens: Sequence[str] = ()
     selection_token: str = ""  # the token that selecting the equation highlights; "" for all of `tokens`
     value: str = ""
@@ -148,7 +148,7 @@ class Document:
     sections: tuple[Section, ...] = field(default=())
 
 
-def make_paragraph(*text: str | Name, tokens: Sequence[str] = ()) -> Paragraph:
+def make_paragraph(*text: str | Formula, tokens: Sequence[str] = ()) -> Paragraph:
     """Return words and formulas as a paragraph with the given highlighting tokens."""
     return Paragraph(text, tokens)
 
@@ -158,7 +158,7 @@ def make_sentence(text: str) -> str:
     return f"{text[:1].upper()}{text[1:]}."
 
 
-def make_row(*items: str | Name | Text) -> tuple[Text, ...]:
+def make_row(*items: str | Formula | Text) -> tuple[Text, ...]:
     """Return a row of a table: a string or a formula becomes a cell with one part."""
     return tuple(item if isinstance(item, tuple) else (item,) for item in items)
 

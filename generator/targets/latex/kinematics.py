@@ -28,7 +28,7 @@ from gudgeon.generator.targets.latex.document import (
     make_row_token,
     make_tables,
 )
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
 from gudgeon.generator.targets.latex.pictures import draw_jacobian_pattern
 from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, name_component
@@ -39,7 +39,7 @@ MAX_OPERATIONS = 400  # operations of an equation that is printed in full
 
 
 def make_equation(
-    left: Name | sp.Expr,
+    left: Formula | sp.Expr,
     right: sp.Expr,
     notation: Notation,
     tokens: Sequence[str] = (),
@@ -51,12 +51,12 @@ def make_equation(
     An expression on the left is formatted by `notation`. tokens: highlighting tokens. selection_token: the one that
     selecting the equation highlights, "" for all. value_name: name of the value that a page shows, "" for none.
     """
-    left_name = left if isinstance(left, Name) else notation.format_expression(left)
+    left_name = left if isinstance(left, Formula) else notation.format_expression(left)
     return Equation(left_name, notation.format_terms(right), tokens, selection_token, value_name)
 
 
 def make_equation_block(
-    left: Name,
+    left: Formula,
     right: sp.Expr,
     notation: Notation,
     tokens: Sequence[str] = (),
@@ -107,7 +107,7 @@ def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
     introduction = make_paragraph(
         "Each body has the two coordinates of its centre of mass and an angle, measured from the x axis of the ground "
         "and not wrapped: ",
-        Name(f"n = {len(model.q)}", f"n = {len(model.q)}"),
+        Formula(f"n = {len(model.q)}", f"n = {len(model.q)}"),
         " coordinates.",
     )
     header = ("body", "number in q", "x", "y", "angle", "rates", "", "")
@@ -141,11 +141,11 @@ def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
     blocks: list[Block] = [
         make_paragraph(
             "The mechanism is assembled if ",
-            Name(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
+            Formula(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
             f" in all {len(model.rows)} constraint equations. Velocities satisfy ",
-            Name(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"),
+            Formula(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"),
             ", accelerations ",
-            Name(
+            Formula(
                 r"\Phi_{q} \ddot{q} = \gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}",
                 "Φ_q·q̈ = γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt",
             ),
@@ -220,7 +220,7 @@ def _format_row_names(rows: Sequence[tuple[int, Row]]) -> str:
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
 
 
-def _list_multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
+def _list_multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Formula]:
     """Return the parts of a text "multipliers λ_1, λ_2" of constraint equations; a page shows the values."""
     names = [replace(name_component(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
     separated = [part for name in names for part in (", ", name)][1:]
@@ -253,7 +253,7 @@ def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, no
     column_of = {q: k for k, q in enumerate(model.q)}
     columns = sorted({q for _, row in rows for q in row.phi_q}, key=column_of.__getitem__)
 
-    def make_jacobian_entry(row_number: int, row: Row, q: sp.Symbol) -> Name:
+    def make_jacobian_entry(row_number: int, row: Row, q: sp.Symbol) -> Formula:
         """Return the entry of Φ_q for coordinate q as a formula, "0" for a zero; row_number counts from 1.
 
         A nonzero entry has its highlighting token. If it is not constant, it also has the name of the value that a page
@@ -292,7 +292,9 @@ def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, no
 def _make_entry_equation(row_number: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
     """Return the equation of one entry of Φ_q as a block; row `row_number` counts from 1, `column` from 0."""
     coordinate = notation.format_expression(q)
-    left = Name(rf"\partial \Phi_{{{row_number}}} / \partial {coordinate.latex}", f"∂Φ_{row_number}/∂{coordinate.text}")
+    left = Formula(
+        rf"\partial \Phi_{{{row_number}}} / \partial {coordinate.latex}", f"∂Φ_{row_number}/∂{coordinate.text}"
+    )
     tokens = [make_entry_token(row_number, column + 1)]
     return make_equation_block(
         left, notation.expand_symbols(row.phi_q[q]), notation, tokens, value_name=f"phi_q.{row_number}.{column + 1}"
@@ -300,7 +302,7 @@ def _make_entry_equation(row_number: int, q: sp.Symbol, row: Row, column: int, n
 
 
 def _make_component_equations(
-    vector: Name, row_numbers: Sequence[int], values: Sequence[sp.Expr], first_row: Row, notation: Notation
+    vector: Formula, row_numbers: Sequence[int], values: Sequence[sp.Expr], first_row: Row, notation: Notation
 ) -> list[Block]:
     """Return the equations of the nonzero components of ν or γ of one joint or drive.
 

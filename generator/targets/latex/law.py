@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.field import NUMBER, Field
-from gudgeon.generator.kinds.laws.built import PAIR, probe_law
+from gudgeon.generator.kinds.laws.built import PAIR_QUANTITIES, probe_law
 from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.symbols.symbols import Symbols
 from gudgeon.generator.targets.format_tables import describe_condition
@@ -24,7 +24,7 @@ from gudgeon.generator.targets.latex.document import (
 )
 from gudgeon.generator.targets.latex.kinematics import make_equation
 from gudgeon.generator.targets.latex.letters import (
-    Name,
+    Formula,
     assign_unique_names,
     make_name_from_latex,
     make_symbol_name,
@@ -87,7 +87,7 @@ class Form:
     selected: Mapping[str, str | bool]
     constants: tuple[Equation, ...]
     evaluated: tuple[Equation, ...]
-    used: tuple[tuple[str, Name], ...]
+    used: tuple[tuple[str, Formula], ...]
 
     @property
     def equations(self) -> tuple[Equation, ...]:
@@ -202,7 +202,7 @@ def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
             yield from form.equations
 
 
-def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
+def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Formula, ...], ...]:
     """Return the table row of a parameter of a law: key, symbol, unit, bounds, default, meaning."""
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension)) or "-"
     default = "needed" if parameter.required else "-" if parameter.default is None else f"{parameter.default:g}"
@@ -290,7 +290,7 @@ def _derive_form(
     free_symbols = [value.free_symbols for value in (*constants.values(), *equations_by_name.values())]
     symbols_read = {name for name, value in equations_by_name.items() if value != 0}.union(*free_symbols)
     described_symbols = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
-    described_symbols |= {name: _make_probe_symbol(name) for name in PAIR}
+    described_symbols |= {name: _make_probe_symbol(name) for name in PAIR_QUANTITIES}
     letters = tuple(
         (name, notation.format_expression(symbol))
         for name, symbol in described_symbols.items()
@@ -306,7 +306,7 @@ def _derive_form(
 
 def _propose_symbol_names(
     law: Law, parameter_names: Sequence[str], constants: Mapping[str, sp.Expr], equations_by_name: Mapping[str, sp.Expr]
-) -> Iterator[tuple[sp.Symbol, Name]]:
+) -> Iterator[tuple[sp.Symbol, Formula]]:
     """Yield (symbol, proposed name) for a law: variables, results, parameters, pair, constants, abbreviations.
 
     Names may repeat; the first symbol keeps a name (`assign_unique_names`), so that fixed names come first.
@@ -321,7 +321,7 @@ def _propose_symbol_names(
             yield symbol, NAMES.get(symbol) or make_symbol_name("F", "t")
     for name in parameter_names:
         yield _make_probe_symbol(name), make_name_from_latex(get_latex_symbol(parameters[name]))
-    for name in PAIR:
+    for name in PAIR_QUANTITIES:
         base, _, index = name.partition("_")
         yield _make_probe_symbol(name), make_symbol_name(base, index) if index else make_symbol_name(base)
     for name in constants:
@@ -330,7 +330,7 @@ def _propose_symbol_names(
         yield sp.Symbol(name, real=True), name_law_variable(law, name)
 
 
-def _restore_law_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
+def _restore_law_names(names: Mapping[sp.Symbol, Formula]) -> dict[sp.Symbol, Formula]:
     """Return the names, in which the name "probe_X" of a symbol of `probe_law` becomes "X" if that is unused."""
     used_texts = {name.text for name in names.values()}
     restored = dict(names)

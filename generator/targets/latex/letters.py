@@ -52,7 +52,7 @@ _DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
 
 
 @dataclass(frozen=True)
-class Name:
+class Formula:
     """Represent a symbol or formula in LaTeX and in plain text, with highlighting tokens and the name of its value."""
 
     latex: str
@@ -66,7 +66,7 @@ class Name:
         return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
-def make_symbol_name(base: str, *subscripts: str, dots: int = 0, hat: bool = False, superscript: str = "") -> Name:
+def make_symbol_name(base: str, *subscripts: str, dots: int = 0, hat: bool = False, superscript: str = "") -> Formula:
     """Return the name of a symbol in LaTeX and plain text: a letter or word with accents, subscripts and superscript.
 
     base: a letter, a word, or a Greek letter's English name. dots: number of time derivatives. superscript: "" or "0".
@@ -86,7 +86,7 @@ def make_symbol_name(base: str, *subscripts: str, dots: int = 0, hat: bool = Fal
     if subscripts:
         latex += f"_{{{_print_subscripts(subscripts)}}}"
         text += "_" + ".".join(GREEK.get(s, s) for s in subscripts)
-    return Name(latex + (f"^{{{superscript}}}" if superscript else ""), text + {"": "", "0": "⁰"}[superscript])
+    return Formula(latex + (f"^{{{superscript}}}" if superscript else ""), text + {"": "", "0": "⁰"}[superscript])
 
 
 def get_greek_command(word: str) -> str:
@@ -94,7 +94,7 @@ def get_greek_command(word: str) -> str:
     return _VARIANT.get(word, f"\\{word}")
 
 
-def make_word_name(name: str) -> Name:
+def make_word_name(name: str) -> Formula:
     """Return the name of a user-defined identifier: omega4 is ω with subscript 4, v_max is v with subscript max.
 
     Only a letter or the name of a Greek letter gets a subscript; other identifiers, such as "speed", stay words.
@@ -108,8 +108,8 @@ def make_word_name(name: str) -> Name:
     return make_symbol_name(name)
 
 
-def make_name_from_latex(latex: str) -> Name:
-    r"""Return a Name from its LaTeX ("c_e", "\mu", "\sigma_{0}"), with the plain text "c_e", "μ", "σ_0".
+def make_name_from_latex(latex: str) -> Formula:
+    r"""Return a formula from its LaTeX ("c_e", "\mu", "\sigma_{0}"), with the plain text "c_e", "μ", "σ_0".
 
     Commands of fonts and accents, braces and spaces are left out of the text.
     """
@@ -121,16 +121,16 @@ def make_name_from_latex(latex: str) -> Name:
     for rest in commands:
         word = "".join(takewhile(str.isalpha, rest))
         text += unicode_by_command.get(f"\\{word}", "" if word in _FONTS else word) + rest.removeprefix(word)
-    return Name(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
+    return Formula(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
 
 
-def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
+def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Formula]]) -> dict[sp.Symbol, Formula]:
     """Return {symbol: unique name} for pairs (expression, proposed name); other expressions than symbols are left out.
 
     The first symbol with a proposed name keeps it. Others get their identifier in C if it has no "_" ("T0"), else the
     proposed name with primes.
     """
-    names: dict[sp.Symbol, Name] = {}
+    names: dict[sp.Symbol, Formula] = {}
     used_names: set[str] = set()
     for symbol, name in proposed:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
@@ -142,10 +142,10 @@ def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Sym
     return names
 
 
-def add_primes(name: Name, used_names: Collection[str]) -> Name:
+def add_primes(name: Formula, used_names: Collection[str]) -> Formula:
     """Return a name with the smallest number of primes that makes its text differ from all `used_names`."""
     while name.text in used_names:
-        name = Name(f"{{{name.latex}}}'", f"{name.text}'")
+        name = Formula(f"{{{name.latex}}}'", f"{name.text}'")
     return name
 
 

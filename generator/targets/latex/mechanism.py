@@ -6,7 +6,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import ForceElement, Joint, PointRef
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, make_paragraph, make_row, make_tables
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.theory import read_sketch
 from gudgeon.generator.targets.latex.values import (
@@ -142,7 +142,7 @@ def _describe_drives(model: Model, notation: Notation) -> list[Block]:
     return make_tables(make_row("drive", "prescribes", "value", "row"), rows, (2,), tokens)
 
 
-def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Name:
+def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Formula:
     """Return the prescribed value of a drive: an angle as a formula, others in the syntax of the file.
 
     An angle whose formula has more than 2 · MAX_CELL_LENGTH characters is in the syntax of the file, too.
@@ -150,7 +150,7 @@ def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Na
     expressions = model.scene.mechanism.expressions
     expression, angle_symbols = (
         model.scene.mechanism.drives[drive].value.value,
-        model.constraints.drive_angles.get(drive),
+        model.constraints.drive_functions.get(drive),
     )
     if angle_symbols is None:
         return format_file_expression(expression, 0, expressions)
@@ -189,7 +189,7 @@ def _describe_parameters(model: Model, notation: Notation, values: ValueFormatte
                 name,
                 notation.format_expression(entry.symbol),
                 values.format_in_si(entry),
-                format_unit(unit) or Name("-", "-"),
+                format_unit(unit) or Formula("-", "-"),
             )
         )
     return [

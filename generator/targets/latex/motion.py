@@ -17,7 +17,7 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.kinematics import make_equation
-from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
+from gudgeon.generator.targets.latex.letters import Formula, make_symbol_name
 from gudgeon.generator.targets.latex.mechanism import format_point, list_field_rows
 from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
 from gudgeon.generator.targets.latex.pictures import draw_assembled_matrix
@@ -25,20 +25,20 @@ from gudgeon.generator.targets.latex.theory import PHI_Q, name_component, read_s
 from gudgeon.generator.targets.latex.values import ValueFormatter
 
 EQUATION_OF_MOTION = Equation(
-    Name(
+    Formula(
         r"\begin{bmatrix} M & \Phi_{q}^{\mathsf{T}} \\ \Phi_{q} & 0 \end{bmatrix}"
         r"\begin{bmatrix} \ddot{q} \\ \lambda \end{bmatrix}",
         "[M, Φ_qᵀ; Φ_q, 0]·[q̈; λ]",
     ),
     (
-        Name(
+        Formula(
             r"\begin{bmatrix} g \\ \gamma - 2 \alpha \dot{\Phi} - \beta^{2} \Phi \end{bmatrix}",
             "[g; γ - 2·α·Φ̇ - β^2·Φ]",
         ),
     ),
 )
-UNCONSTRAINED_EQUATION = Equation(Name(r"M \ddot{q}", "M·q̈"), (Name("g", "g"),))
-PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
+UNCONSTRAINED_EQUATION = Equation(Formula(r"M \ddot{q}", "M·q̈"), (Formula("g", "g"),))
+PHI_DOT = Formula(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
 
 
 def make_motion_sections(model: Model, notation: Notation) -> list[Section]:
@@ -114,7 +114,7 @@ def _describe_friction(model: Model, friction: Friction, notation: Notation) -> 
     ]
     force = [
         make_equation(
-            Name(rf"\Delta g_{{{coordinate_number[q]}}}", f"Δg_{coordinate_number[q]}"),
+            Formula(rf"\Delta g_{{{coordinate_number[q]}}}", f"Δg_{coordinate_number[q]}"),
             notation.expand_symbols(-entry * slip.evaluate_kinetic_force(v) * sp.sign(v)),
             slip_notation,
         )
@@ -144,7 +144,7 @@ def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block
     forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
     for element in model.elements.values():
         element.add_generalized_forces(forces)
-    g = Name("g", "g")
+    g = Formula("g", "g")
     blocks: list[Block] = [
         make_equation(name_component(g, k), notation.expand_symbols(force), notation)
         for k, force in enumerate(forces, 1)
@@ -202,9 +202,9 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
             ", ",
             *gains,
             "which return a drift of ",
-            Name(r"\Phi", "Φ"),
+            Formula(r"\Phi", "Φ"),
             " to zero (Baumgarte). ",
-            Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"),
+            Formula(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"),
             " contains the forces of joints and drives. ",
             f"M is {n} × {n}, ",
             PHI_Q,
@@ -217,9 +217,9 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
         blocks.append(
             make_paragraph(
                 "The drives alone determine the motion: ",
-                Name(r"\Phi = 0", "Φ = 0"),
+                Formula(r"\Phi = 0", "Φ = 0"),
                 " gives the positions, ",
-                Name(r"\Phi_{q} \dot{q} = \nu", "Φ_q·q̇ = ν"),
+                Formula(r"\Phi_{q} \dot{q} = \nu", "Φ_q·q̇ = ν"),
                 " the velocities, and nothing is integrated.",
             )
         )
@@ -230,7 +230,7 @@ def _describe_degrees_of_freedom(model: Model) -> list[Block]:
     """Return the paragraph on the degrees of freedom: Grübler's formula, and the rank of Φ_q if rows are redundant."""
     n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
     counted = m + len(dropped)
-    by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
+    by_count, by_rank = (Formula(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
     introduction = "Degrees of freedom by Grübler's formula: "
     formula_note = f", three coordinates for each body minus {counted} constraint equation{'s' * (counted != 1)}"
     if dropped:

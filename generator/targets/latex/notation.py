@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
 from gudgeon.generator.symbols.symbols import Symbols, strip_identifier
-from gudgeon.generator.targets.latex.letters import Name, add_primes, make_symbol_name, make_word_name
+from gudgeon.generator.targets.latex.letters import Formula, add_primes, make_symbol_name, make_word_name
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.latex.theory import collect_theory_symbols
 
@@ -56,9 +56,9 @@ _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 class PrimedSymbol:
     """Represent a symbol that has primes because another symbol has its name without primes (`plain_name`)."""
 
-    name: Name
+    name: Formula
     meaning: str
-    plain_name: Name
+    plain_name: Formula
     plain_meaning: str
 
 
@@ -67,12 +67,12 @@ class Notation:
     """Contain the names of a model's symbols; `shown_symbols`: derived ones that keep a name of their own."""
 
     symbols: Symbols
-    names: Mapping[sp.Symbol, Name]
+    names: Mapping[sp.Symbol, Formula]
     shown_symbols: frozenset[sp.Symbol]
     order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
     primed_symbols: tuple[PrimedSymbol, ...] = ()  # in the order of the file
 
-    def rename_symbols(self, names: Mapping[sp.Symbol, Name]) -> Notation:
+    def rename_symbols(self, names: Mapping[sp.Symbol, Formula]) -> Notation:
         """Return a copy of the notation with other names for some symbols, as in the section of a joint."""
         return replace(self, names={**self.names, **names})
 
@@ -85,14 +85,14 @@ class Notation:
             expression = expression.xreplace(replacements)
         return expression
 
-    def format_expression(self, expression: sp.Expr) -> Name:
+    def format_expression(self, expression: sp.Expr) -> Formula:
         """Return an expression as a formula in LaTeX and text, without expanding derived symbols."""
         expression = remove_numerical_forms(sp.sympify(expression))
-        return Name(self._latex.doprint(expression), self._text.doprint(expression))
+        return Formula(self._latex.doprint(expression), self._text.doprint(expression))
 
     def format_terms(
         self, expression: sp.Expr, list_tokens: Callable[[sp.Expr], Sequence[str]] = lambda _: ()
-    ) -> tuple[Name, ...]:
+    ) -> tuple[Formula, ...]:
         """Return the terms of a sum as formulas with their signs, between which a line may break.
 
         An expression that is not a sum is its only term. Forms for numerics (`Slope`, `UnevaluatedQuotient`) are
@@ -101,7 +101,7 @@ class Notation:
         expression = remove_numerical_forms(sp.sympify(expression))
         signs = self._text.split_signed_terms(expression)
         return tuple(
-            Name(
+            Formula(
                 sign + self._latex.print_breakable_formula(term),
                 sign.replace("{}", "") + self._text.doprint(term),
                 list_tokens(term),
@@ -132,12 +132,12 @@ def make_notation(model: Model) -> Notation:
     return Notation(model.symbols, names, frozenset(_list_shown_symbols(model)), order, primed_symbols)
 
 
-def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[PrimedSymbol, ...]]:
+def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Formula], tuple[PrimedSymbol, ...]]:
     """Return ({symbol: unique name}, symbols with primes) of a model.
 
     A proposed name that an earlier symbol or the theory (theory.py) uses gets primes.
     """
-    names: dict[sp.Symbol, Name] = {}
+    names: dict[sp.Symbol, Formula] = {}
     used_symbol_names, primed_symbols = collect_theory_symbols(model), list[PrimedSymbol]()
     for symbol, proposed_name in _propose_names(model):
         if isinstance(symbol, sp.Symbol) and symbol not in names:
@@ -156,7 +156,7 @@ def _describe_symbol(model: Model, symbol: sp.Symbol) -> str:
     return (info.meaning if info else "") or strip_identifier(symbol)
 
 
-def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
+def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Formula]]:
     """Yield (symbol, proposed name) of all symbols of a model; names may repeat, and the first symbol keeps a name.
 
     The order is: time, coordinates, drives, parameters of the file with user-defined ones last, derived parameters,
@@ -167,7 +167,7 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
         for quantity, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
             base, dots = _RATES.get(quantity, (quantity, 0))
             yield symbol, make_symbol_name(base, body.name, dots=dots)
-    for drive, symbols in model.constraints.drive_angles.items():
+    for drive, symbols in model.constraints.drive_functions.items():
         for dots, symbol in enumerate(symbols):
             yield symbol, make_symbol_name("f", drive, dots=dots)
     entries = [*model.parameter_table.entries.values()]
@@ -190,7 +190,7 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
             yield symbol, make_symbol_name("u", component.axis, component.body, *number)
 
 
-def name_parameter(address: str) -> Name:
+def name_parameter(address: str) -> Formula:
     """Return the name of a parameter by its address: "bodies.L1.length" is l with the subscript L1.
 
     An address of another form becomes a word, with "_" for ".".
@@ -246,7 +246,7 @@ def get_field_letter(field: str) -> str:
     return _ONE_LETTER.get(field, field)
 
 
-def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Name:
+def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Formula:
     """Return the name of a derived parameter: the letter of its quantity with the joint or element as subscript.
 
     Components of unit vectors get an axis and a hat. A parameter without an owner keeps its identifier.
@@ -262,7 +262,7 @@ def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Name:
     )
 
 
-def _name_temporary(meaning: str) -> Name:
+def _name_temporary(meaning: str) -> Formula:
     """Return the name of a temporary of a force element from its meaning, "span_x of coil": Δ_x,coil."""
     quantity, _, owner = meaning.partition(" of ")
     base, _, axis = quantity.rpartition("_")
@@ -272,7 +272,7 @@ def _name_temporary(meaning: str) -> Name:
     return make_symbol_name(base_letter, *([axis] if axis else []), owner, dots=dots)
 
 
-def _name_drive_distance(name: str) -> Name:
+def _name_drive_distance(name: str) -> Formula:
     """Return the name of a component of the vector that a distance drive prescribes, from its identifier in C.
 
     name: for a drive `pull`, "pull_span_x" (Δ_x), "pull_length" (l) or "pull_along_x" (unit vector ê_x).
@@ -295,7 +295,7 @@ def list_temporaries(model: Model) -> list[sp.Symbol]:
 
     They are all definitions except parameters, angles and distances of drives, and rotated components.
     """
-    excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    excluded = {symbol for symbols in model.constraints.drive_functions.values() for symbol in symbols}
     excluded.update(list_drive_distances(model), model.symbols.derivative_rules)
     return [s for s in model.symbols.definitions if not model.symbols.info[s].place and s not in excluded]
 
@@ -305,7 +305,7 @@ def list_rotated_components(model: Model) -> list[sp.Symbol]:
 
     Sines and cosines themselves, and angles and distances of drives, are left out.
     """
-    excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    excluded = {symbol for symbols in model.constraints.drive_functions.values() for symbol in symbols}
     excluded.update(list_drive_distances(model))
     return [
         symbol
@@ -325,7 +325,7 @@ def _list_shown_symbols(model: Model) -> Iterator[sp.Symbol]:
     definitions = model.symbols.definitions
     yield from (symbol for symbol in list_rotated_components(model) if definitions[symbol].is_Add)
     yield from list_drive_distances(model)
-    for symbols in model.constraints.drive_angles.values():
+    for symbols in model.constraints.drive_functions.values():
         if sp.count_ops(definitions[symbols[0]]) > MAX_DRIVE_OPERATIONS:
             yield from symbols
     for clearance in model.clearances:

@@ -26,7 +26,7 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.kinematics import make_equation
-from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, make_symbol_name
+from gudgeon.generator.targets.latex.letters import Formula, make_name_from_latex, make_symbol_name
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.plots import plot_law_of_joints
 from gudgeon.generator.targets.latex.trace import Functions, HighlightIndex
@@ -53,9 +53,9 @@ def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
         "continuous derivatives. The normal law gives ",
         joint.notation.format_expression(sp.Symbol("F_n", real=True)),
         ", which acts along the gradient of ",
-        Name(r"\delta", "δ"),
+        Formula(r"\delta", "δ"),
         ", whose length is ",
-        joint.notation.format_expression(contact.steep),
+        joint.notation.format_expression(contact.gradient_length),
         ", so that an elastic force is conservative.",
     )
 
@@ -76,7 +76,7 @@ def describe_corner(name: str, guide: str, slider: str) -> Block:
     )
 
 
-def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
+def describe_rigid_contact(joint: JointWithPlay, approach_speed: Formula) -> Block:
     """Return the paragraph on impacts and closed contacts of rigid surfaces: restitution, threshold, complementarity.
 
     It mentions friction in impacts if the joint has a friction law. The joint must have a normal law.
@@ -100,12 +100,12 @@ def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
         threshold,
         f"; all constraint equations and closed contacts react to the impact{friction_note}. A closed contact "
         "has the force ",
-        Name(r"\lambda_n \geq 0,\ \ddot{\delta} \leq 0,\ \lambda_n \ddot{\delta} = 0", "λ_n ≥ 0, δ̈ ≤ 0, λ_n δ̈ = 0"),
+        Formula(r"\lambda_n \geq 0,\ \ddot{\delta} \leq 0,\ \lambda_n \ddot{\delta} = 0", "λ_n ≥ 0, δ̈ ≤ 0, λ_n δ̈ = 0"),
         ".",
     )
 
 
-def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
+def describe_onset(joint: JointWithPlay, approach_speed: Formula) -> Block:
     """Return the paragraph on the condition δ > 0 of a compliant contact and on the stored approach speed.
 
     It contains the default of the key `velocity_floor` of the contact. approach_speed: the symbol δ̇⁻.
@@ -115,13 +115,13 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
     ].default
     return make_paragraph(
         "The contact acts while ",
-        Name(r"\delta > 0", "δ > 0"),
+        Formula(r"\delta > 0", "δ > 0"),
         ". ",
         approach_speed,
         " is the approach speed at the onset, "
         f"at least {format_quantity(min_approach_speed, 'm/s')}, stored until separation; before an onset is "
         "accepted, ",
-        Name(r"\dot{\delta} / ", "δ̇ / "),
+        Formula(r"\dot{\delta} / ", "δ̇ / "),
         approach_speed,
         " is 1.",
     )
@@ -139,7 +139,7 @@ def format_option(value: str | bool) -> str:
     return str(value).lower() if isinstance(value, bool) else value
 
 
-PAIR = (
+BEARING_DIMENSIONS = (
     ("radius", "R_i", "bearing radius"),
     ("clearance", "c", "radial clearance"),
     ("length", "L", "length of the bearing"),
@@ -171,7 +171,7 @@ class JointWithPlay:
         transition from film to dry contact.
         """
         bearing = self.play.bearing
-        for field, latex_symbol, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else PAIR:
+        for field, latex_symbol, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else BEARING_DIMENSIONS:
             if (quantity := getattr(bearing, field)) is not None:
                 yield quantity, latex_symbol, meaning
         i, j = bearing.bearing_material, bearing.journal_material
@@ -324,7 +324,7 @@ def _describe_dry_contact(joint: JointWithPlay) -> list[Block]:
     They are: onset (or impact, if the surfaces are rigid), lever arms and slip, normal law, normal force of a contour,
     friction law (or a note and the equation F_t = 0), and moments.
     """
-    clearance, approach_speed = joint.clearance, joint.notation.format_expression(contact.stored)
+    clearance, approach_speed = joint.clearance, joint.notation.format_expression(contact.stored_approach_speed)
     onset = describe_rigid_contact(joint, approach_speed) if clearance.rigid else describe_onset(joint, approach_speed)
     friction = (
         _describe_law(joint, "friction")
@@ -347,7 +347,7 @@ def _describe_dry_contact(joint: JointWithPlay) -> list[Block]:
 def _describe_mixed_lubrication(joint: JointWithPlay) -> list[Block]:
     """Return the blocks on mixed lubrication: its condition δ > 0, and the law of the fraction of the dry contact."""
     condition = make_paragraph(
-        "While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the fraction of the dry contact is 0."
+        "While ", Formula(r"\delta > 0", "δ > 0"), "; otherwise the fraction of the dry contact is 0."
     )
     return [condition, *_describe_law(joint, "mixed")]
 
@@ -403,7 +403,7 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
             sign * (arm_x * contact.F_y - arm_y * contact.F_x) + moment,
         )
         for k, component in enumerate(components, point.body.index + 1):
-            left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
+            left = Formula(rf"\Delta g_{{{k}}}", f"Δg_{k}")
             blocks.append(make_equation(left, sp.expand(notation.expand_symbols(component)), notation, joint.tokens))
     return blocks
 

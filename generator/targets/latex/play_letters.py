@@ -29,6 +29,7 @@ from gudgeon.generator.equations.contact_steps import (
     e_x,
     e_y,
     epsilon,
+    gradient_length,
     make_part_symbol,
     n_x,
     n_y,
@@ -36,10 +37,9 @@ from gudgeon.generator.equations.contact_steps import (
     omega_j,
     position_along_guide,
     ratio,
+    scaled_gradient_length,
     share,
-    slant,
-    steep,
-    stored,
+    stored_approach_speed,
     theta_i,
     u_x,
     u_y,
@@ -54,7 +54,7 @@ from gudgeon.generator.kinds.laws.law import CONSTRAINT_VARIABLES, RESULTS, Law
 from gudgeon.generator.mechanism import LawUse, Quantity
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.letters import (
-    Name,
+    Formula,
     assign_unique_names,
     make_name_from_latex,
     make_symbol_name,
@@ -64,7 +64,7 @@ from gudgeon.generator.targets.latex.letters import (
 # Indices of the parts of a joint with film and dry contact.
 _PARTS = {"dry": "d", "film": "f"}
 
-NAMES: Mapping[sp.Symbol, Name] = {
+NAMES: Mapping[sp.Symbol, Formula] = {
     e_x: make_symbol_name("e", "x"),
     e_y: make_symbol_name("e", "y"),
     de_x: make_symbol_name("e", "x", dots=1),
@@ -77,7 +77,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     delta: make_symbol_name("delta"),
     deltadot: make_symbol_name("delta", dots=1),
     de_t: make_symbol_name("e", "t", dots=1),
-    stored: Name(r"\dot{\delta}^{-}", "δ̇⁻"),
+    stored_approach_speed: Formula(r"\dot{\delta}^{-}", "δ̇⁻"),
     a_i: make_symbol_name("a", "i"),
     a_j: make_symbol_name("a", "j"),
     v_t: make_symbol_name("v", "t"),
@@ -94,10 +94,10 @@ NAMES: Mapping[sp.Symbol, Name] = {
     u_x: make_symbol_name("u", "x"),
     u_y: make_symbol_name("u", "y"),
     contour_depth: make_symbol_name("d"),
-    contour_slope: Name("d'", "d'"),
+    contour_slope: Formula("d'", "d'"),
     beta_rate: make_symbol_name("beta", "i", dots=1),
-    slant: make_symbol_name("r"),
-    steep: make_symbol_name("Gamma"),
+    scaled_gradient_length: make_symbol_name("r"),
+    gradient_length: make_symbol_name("Gamma"),
     sp.Symbol("F_n", real=True): make_symbol_name("F", "n"),
     sp.Symbol("F_r", real=True): make_symbol_name("F", "r"),
     sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_symbol_name("lambda", "n"),
@@ -135,10 +135,10 @@ GUIDE = (
     ("half_height", "b_g", "half the slider's height"),
     ("corner_radius", r"\rho_g", "radius of the slider's corners"),
 )
-RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), make_symbol_name("r")
+RATIO, CLIPPED = Formula(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), make_symbol_name("r")
 
 
-def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Name]:
+def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Formula]:
     """Return {symbol: name} of the variables of a joint with play, from eccentricity to force (contact_steps.py).
 
     Forces and moments have the index d (dry) or f (film) if the joint has both. At a corner of a slider at a wall, the
@@ -162,12 +162,12 @@ def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Name]:
     return step_names
 
 
-def name_joint_symbols(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
+def name_joint_symbols(model: Model, clearance: Clearance) -> dict[sp.Symbol, Formula]:
     """Return {symbol: unique name} of one joint's sections: c, R_i, K, c_e stand for this joint only."""
     return assign_unique_names(_propose_symbol_names(model, clearance))
 
 
-def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
+def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Formula]]:
     """Yield (symbol, proposed name) for a joint with play; names may repeat, and the first symbol keeps a name.
 
     Contact variables come first, then dimensions, elastic constants, the transition, parameters and constants of laws,
@@ -234,7 +234,7 @@ def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
     return sp.Symbol(name, real=True)
 
 
-def name_law_variable(law: Law, name: str) -> Name:
+def name_law_variable(law: Law, name: str) -> Formula:
     """Return the name of an abbreviation, constant or result of a law.
 
     The rate "STATE_rate" of an internal state has a dot; names without an entry in the tables become words.

@@ -106,7 +106,7 @@ def _call_law_kernel(
 def _evaluate_symbol(functions: Functions, parameters: Mapping[str, float], symbol: Any) -> float:
     """Return the value (SI) of a symbol that is a parameter, or of a SymPy number."""
     return (
-        parameters[functions.model.parameter_table.find_field_name(symbol)]
+        parameters[functions.model.parameter_table.find_member_name(symbol)]
         if symbol in functions.model.symbols.info
         else float(symbol)
     )

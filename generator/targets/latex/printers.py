@@ -15,7 +15,7 @@ from sympy.printing.str import StrPrinter
 
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf
 from gudgeon.generator.symbols.symbols import strip_identifier
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.language.functions import IN_SYMPY, Function
 
 MAX_UNBREAKABLE_LENGTH = 70  # characters of plain text of a term without line breaks
@@ -132,7 +132,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
     """Print LaTeX for amsmath. `print_breakable_formula` lets long terms break at their signs."""
 
     def __init__(
-        self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], is_breakable: bool = False
+        self, names: Mapping[sp.Symbol, Formula], order: Mapping[sp.Symbol, int], is_breakable: bool = False
     ) -> None:
         settings: dict[str, Any] = {
             "symbol_names": {symbol: name.latex for symbol, name in names.items()},
@@ -273,7 +273,7 @@ _MIN_ANGLE_DIGITS = 9  # digits of repr() of a number that is written as an angl
 
 
 @lru_cache(4096)
-def format_angle(value: float) -> Name | None:
+def format_angle(value: float) -> Formula | None:
     """Return a number in rad as an angle: a fraction of π (`find_fraction_of_pi`) or degrees, such as π/2 or 39.52°.
 
     Degrees have six digits and must be exact within two units in the last place. None is returned otherwise, and for a
@@ -285,11 +285,11 @@ def format_angle(value: float) -> Name | None:
         numerator, denominator = fraction
         sign, pi_factor = "-" * (numerator < 0), f"{abs(numerator) if abs(numerator) > 1 else ''}"
         if denominator == 1:
-            return Name(rf"{sign}{pi_factor}\pi", f"{sign}{pi_factor}π")
-        return Name(rf"{sign}\tfrac{{{pi_factor}\pi}}{{{denominator}}}", f"{sign}{pi_factor}π/{denominator}")
+            return Formula(rf"{sign}{pi_factor}\pi", f"{sign}{pi_factor}π")
+        return Formula(rf"{sign}\tfrac{{{pi_factor}\pi}}{{{denominator}}}", f"{sign}{pi_factor}π/{denominator}")
     degrees = f"{math.degrees(value):.6g}"
     if abs(math.radians(float(degrees)) - value) <= 2 * math.ulp(value):
-        return Name(rf"{degrees}^{{\circ}}", f"{degrees}°")
+        return Formula(rf"{degrees}^{{\circ}}", f"{degrees}°")
     return None
 
 

@@ -16,7 +16,7 @@ import jinja2
 from gudgeon.generator.targets.javascript.compression import compress_style_sheet
 from gudgeon.generator.targets.latex import to_html
 from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
-from gudgeon.generator.targets.latex.letters import GREEK, Name, get_greek_command
+from gudgeon.generator.targets.latex.letters import GREEK, Formula, get_greek_command
 
 _TEXT_COMMANDS = {
     "\\": r"\textbackslash{}",
@@ -212,7 +212,7 @@ def _get_template_environment() -> jinja2.Environment:
 
 def _print_tex_line(text: Text) -> str:
     """Return words and formulas in LaTeX."""
-    return "".join(f"${part.latex}$" if isinstance(part, Name) else escape_latex(part) for part in text)
+    return "".join(f"${part.latex}$" if isinstance(part, Formula) else escape_latex(part) for part in text)
 
 
 def _print_tex_row(row: tuple[Text, ...], text_columns: tuple[int, ...]) -> str:
@@ -262,7 +262,7 @@ def _measure_column(table: Table, column: int) -> int:
 
 def _print_plain_line(text: Text) -> str:
     """Return words and formulas as plain text."""
-    return "".join(part.text if isinstance(part, Name) else part for part in text)
+    return "".join(part.text if isinstance(part, Formula) else part for part in text)
 
 
 def _print_plain_paragraph(paragraph: Paragraph) -> str:

@@ -18,7 +18,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
-from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, make_symbol_name
+from gudgeon.generator.targets.latex.letters import Formula, make_name_from_latex, make_symbol_name
 from gudgeon.generator.targets.latex.play_letters import (
     get_latex_symbol,
     get_result_symbol,
@@ -50,13 +50,13 @@ def find_sketch_symbols(lines: list[str]) -> Iterator[str]:
             yield from dict.fromkeys((text, text.replace("\u0307", "")))
 
 
-PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
-LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
+PHI, NU, GAMMA = Formula(r"\Phi", "Φ"), Formula(r"\nu", "ν"), Formula(r"\gamma", "γ")
+LAMBDA, PHI_Q = Formula(r"\lambda", "λ"), Formula(r"\Phi_{q}", "Φ_q")
 
 
-def name_component(vector: Name, index: int) -> Name:
+def name_component(vector: Formula, index: int) -> Formula:
     """Return the name of a component of a vector; components count from 1."""
-    return Name(f"{vector.latex}_{{{index}}}", f"{vector.text}_{index}")
+    return Formula(f"{vector.latex}_{{{index}}}", f"{vector.text}_{index}")
 
 
 def collect_theory_symbols(model: Model) -> dict[str, str]:
@@ -129,7 +129,7 @@ def _list_sketch_symbols(type_: JointType | ElementType) -> Iterator[tuple[str, 
 
 def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]:
     """Yield the plain text of the symbols of a joint with play: variables, parameters, laws, indices i, j, n, d, f."""
-    used_symbols = {contact.stored, *_list_assignment_symbols(_list_clearance_assignments(clearance))}
+    used_symbols = {contact.stored_approach_speed, *_list_assignment_symbols(_list_clearance_assignments(clearance))}
     step_names = name_contact_variables(clearance)
     yield from (
         name.text
@@ -155,7 +155,7 @@ def _list_clearance_assignments(clearance: Clearance) -> Iterator[Assignment]:
         for symbol in (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
     )
     if clearance.contour:
-        yield Assignment(contact.theta_i, contact.steep)
+        yield Assignment(contact.theta_i, contact.gradient_length)
     yield from contact.make_gap_equations(clearance)
     if clearance.normal is not None:
         yield from (

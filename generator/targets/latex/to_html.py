@@ -15,7 +15,7 @@ import sympy as sp
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.targets.latex.document import Listing, Text
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.notation import make_notation
 
 _TRIGONOMETRIC_FUNCTIONS = ("sin", "cos", "tan")
@@ -40,10 +40,10 @@ def print_value_element(value_name: str) -> str:
 
 def print_line(text: Text) -> str:
     """Return words and formulas as HTML."""
-    return "".join(print_formula(part) if isinstance(part, Name) else html.escape(part) for part in text)
+    return "".join(print_formula(part) if isinstance(part, Formula) else html.escape(part) for part in text)
 
 
-def print_formula(name: Name) -> str:
+def print_formula(name: Formula) -> str:
     """Return a formula as MathML, then the element of its value; within a span with its tokens if it has any."""
     mathml_text = "".join(map(convert_to_mathml, _split_formula(name.latex))) + print_value_element(name.value)
     return f"<span{print_attributes(name.tokens)}>{mathml_text}</span>" if name.tokens else mathml_text
@@ -140,9 +140,9 @@ class FormulaWriter:
         """Return a matrix as plain text, a line for each row."""
         return "\n".join(f"[{', '.join(row)}]" for row in self._format_entries(matrix, lambda name: name.text))
 
-    def equation(self) -> Name:
+    def equation(self) -> Formula:
         """Return the constraint equations Φ(q, t) = 0, one below the other."""
-        return Name(rf"\Phi(q, t) = {self.latex(self.model.Phi)} = 0", f"Φ(q, t) =\n{self.text(self.model.Phi)}")
+        return Formula(rf"\Phi(q, t) = {self.latex(self.model.Phi)} = 0", f"Φ(q, t) =\n{self.text(self.model.Phi)}")
 
     def html(self) -> str:
         """Return Φ(q, t) = 0 as MathML; as LaTeX between dollar signs without the extra `docs`."""
@@ -151,7 +151,7 @@ class FormulaWriter:
         except GudgeonError:
             return f"$${self.equation().latex}$$"
 
-    def _format_entries(self, matrix: sp.Matrix, format_name: Callable[[Name], str]) -> list[list[str]]:
+    def _format_entries(self, matrix: sp.Matrix, format_name: Callable[[Formula], str]) -> list[list[str]]:
         """Return the rows of a matrix as lists of texts; `format_name` returns the text of a formula."""
         return [
             [format_name(self.notation.format_expression(matrix[r, c])) for c in range(matrix.cols)]

@@ -111,7 +111,7 @@ class _TokenCollector:
         self.tree_functions = print_reduced_functions(program, set())
         self.law_names = {kernel.name for kernel in program.laws}
         self.multiplier_locals = {make_identifier(f"lambda_{row.name}"): k for k, row in enumerate(self.model.rows, 1)}
-        members = map(self.model.parameter_table.find_field_name, self.model.parameter_table.list_symbols())
+        members = map(self.model.parameter_table.find_member_name, self.model.parameter_table.list_symbols())
         self.parameter_numbers = {f"{PARAMETERS}.{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
         loop_rows = tree.driven_loop_kernels.loops.rows if tree and tree.driven_loop_kernels else ()

@@ -15,7 +15,7 @@ from gudgeon.generator.mechanism import Quantity, Vector
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.document import Block, Equation, Text, make_paragraph, make_row
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.notation import Notation, name_parameter
 from gudgeon.generator.targets.latex.printers import (
     MAX_UNBREAKABLE_LENGTH,
@@ -134,7 +134,7 @@ class ValueFormatter:
             if root.exp == sp.Rational(1, 2) and len(notation.format_expression(root).text) > MAX_UNBREAKABLE_LENGTH:
                 latex, text = (name.partition("_")[1:] for name in (left_side.latex, left_side.text))
                 primes = "'" * len(blocks)
-                inner_name = Name("".join(("D", *latex, primes)), "".join(("D", *text, primes)))
+                inner_name = Formula("".join(("D", *latex, primes)), "".join(("D", *text, primes)))
                 inner_symbol = sp.Symbol(inner_name.text)
                 blocks.append(Equation(inner_name, notation.format_terms(root.base)))
                 notation, value = (
@@ -150,12 +150,12 @@ class ValueFormatter:
         """
         number = self._format_number(value, unit == "rad", is_exact)
         if unit == "deg":
-            return (Name(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
+            return (Formula(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
         return (
             (number, f" {format_unit(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
         )
 
-    def _format_number(self, value: float, is_angle: bool = False, is_exact: bool = False) -> Name:
+    def _format_number(self, value: float, is_angle: bool = False, is_exact: bool = False) -> Formula:
         """Return a number as a formula, rounded to six significant digits unless `is_exact`.
 
         A magnitude below MIN_PLAIN_NUMBER is written with a power of ten. is_angle: whether the number may be written
@@ -165,10 +165,10 @@ class ValueFormatter:
             return angle_name
         rounded = value if is_exact else float(f"{value:.6g}")
         if not 0.0 < abs(rounded) < MIN_PLAIN_NUMBER:
-            return Name(*(self._notation.format_expression(sp.Float(rounded, 17)).latex, format_number(rounded)))
+            return Formula(*(self._notation.format_expression(sp.Float(rounded, 17)).latex, format_number(rounded)))
         digits, _, power = f"{Decimal(repr(rounded)).normalize():e}".partition("e")
         factor = "" if digits == "1" else rf"{digits} \cdot "
-        return Name(rf"{factor}10^{{{int(power)}}}", f"{digits}e{power}")
+        return Formula(rf"{factor}10^{{{int(power)}}}", f"{digits}e{power}")
 
     def list_body_quantities(self, part: str) -> list[tuple[Text, ...]]:
         """Return the table rows (address, value) of the parameters of bodies in the section `part`, "sides" or "shape".
@@ -235,7 +235,10 @@ def get_unit(number: Number) -> str:
 
 
 def _is_float(text: str) -> bool:
-    """Return whether Python's float() accepts a text."""
+    """Return whether Python's float() accepts a text.
+
+    It is called to find the longest prefix of a value with a unit that is a number.
+    """
     try:
         float(text)
     except ValueError:

@@ -24,7 +24,7 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.kinematics import make_kinematics_sections
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.generator.targets.latex.listings import make_listing_sections, print_scripts
 from gudgeon.generator.targets.latex.mechanism import make_mechanism_sections
 from gudgeon.generator.targets.latex.motion import make_motion_sections
@@ -79,7 +79,7 @@ def prepend_symbols_section(sections: Sequence[Section], notation: Notation) -> 
     return (Section("Symbols", tuple(table_blocks)), *sections) if table_blocks else (*sections,)
 
 
-def make_primed_symbols_table(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
+def make_primed_symbols_table(notation: Notation, formulas: Iterable[Formula]) -> list[Block]:
     """Return an introduction and the table of the primed symbols that occur in `formulas`; [] if there are none."""
     text = " ".join(name.text for name in formulas)
     rows = [
@@ -92,11 +92,11 @@ def make_primed_symbols_table(notation: Notation, formulas: Iterable[Name]) -> l
     return [introduction, *make_tables(header, rows, (3,))] if rows else []
 
 
-def _list_formulas(block: Block) -> Iterator[Name]:
+def _list_formulas(block: Block) -> Iterator[Formula]:
     """Yield the formulas of a block: of an equation, a paragraph or a table; other blocks have none."""
     if isinstance(block, Equation):
         yield from (block.left, *block.terms)
-    yield from (part for text in _list_texts(block) for part in text if isinstance(part, Name))
+    yield from (part for text in _list_texts(block) for part in text if isinstance(part, Formula))
 
 
 def _list_texts(block: Block) -> list[Text]:

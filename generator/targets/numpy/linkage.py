@@ -28,7 +28,7 @@ class NumPyLinkage:
     ) -> None:
         self.source, self.n, self.closed = source, len(model.q), closed_linkage or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given_values)
-        self.names = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
+        self.names = [model.parameter_table.find_member_name(symbol) for symbol in model.parameter_table.list_symbols()]
         self.p = np.array([read_parameter(self.defaults, name) for name in self.names])
 
     def get_parameters(self, p: Array) -> SimpleNamespace:

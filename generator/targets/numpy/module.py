@@ -114,7 +114,7 @@ class ClosedLinkage:
             for address in table.entries:
                 if address.startswith(f"{choice}."):
                     entry = table.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
-                    properties[address] = getattr(p, table.find_field_name(entry.symbol))
+                    properties[address] = getattr(p, table.find_member_name(entry.symbol))
         return properties
 
     def _convert_given_values(self, given_values: Mapping[str, float | str]) -> dict[str, float]:

@@ -243,7 +243,7 @@ def check_study_size(study: StudyFile) -> None:
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
     numbers = [(axis.length, axis.where) for axis in study.axes]
-    numbers += [(study.draw.count, next(iter(study.draw.numbers)).where)] if study.draw else []
+    numbers += [(study.draw.count, next(iter(study.draw.distributions)).where)] if study.draw else []
     if study.starts:
         start_name = next(name for ensemble in study.starts.ensembles.values() for name in ensemble)
         numbers.append((study.starts.count * len(study.starts.ensembles), start_name.where))

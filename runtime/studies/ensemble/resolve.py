@@ -164,7 +164,7 @@ def _resolve_parameters(
         dimensions.append(StudyDimension("draw", study.draw.count, columns))
         message = f"point of {study.draw.method}, seed {study.draw.seed}"
         coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
-        for name in study.draw.numbers:
+        for name in study.draw.distributions:
             parameter = find_parameter_in_scenes(sources, name)
             coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], parameter.unit, parameter.address))
     return dimensions, coordinates
@@ -178,7 +178,7 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
     """
     points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
     drawn_values = {}
-    for name, spread in draw.numbers.items():
+    for name, spread in draw.distributions.items():
         parameter = find_parameter_in_scenes(sources, name)
         first, second = (parse_real_value(text, parameter) for text in spread.ends)
         where = spread.ends[1].where
@@ -347,7 +347,7 @@ def _describe_ineffective_settings(study: StudyFile, sources: Sequence[KernelSou
     Varied values that a value for all runs (--set) replaces get a note, too.
     """
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
-    names += [*study.draw.numbers] if study.draw else []
+    names += [*study.draw.distributions] if study.draw else []
     names += [name for ensemble in study.starts.ensembles.values() for name in ensemble] if study.starts else []
     for axis in study.left_out:
         for name, numbers in axis.columns.items():

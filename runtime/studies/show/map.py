@@ -228,7 +228,7 @@ def list_typed_law_files() -> list[str]:
     """
     from gudgeon.generator.kinds.laws.registered import ORIGINS
 
-    return [origin.typed for origin in ORIGINS.values() if origin.typed]
+    return [origin.display_path for origin in ORIGINS.values() if origin.display_path]
 
 
 def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) -> list[str]:

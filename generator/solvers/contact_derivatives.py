@@ -28,7 +28,7 @@ INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.om
 CONTOUR_INPUTS = (
     contact.e,
     contact.de_n,
-    contact.across,
+    contact.rate_across_e,
     contact.omega_i,
     contact.omega_j,
     contact.contour_depth,
@@ -133,8 +133,8 @@ class _DerivativeBuilder:
 def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
     """Return the kernel of the film's force and moments and of their derivatives by the inputs.
 
-    The values are (F along n, F along t, M_i, M_j), and 0 for internal states. The inputs are those of
-    `find_input_variables`.
+    The values are (F along n, F along t, M_i, M_j), followed by zeros for the rates of internal states of friction
+    laws. The inputs are those of `find_input_variables`.
     """
     derivative_builder = _DerivativeBuilder(model, clearance, "film")
     derivative_builder.begin_section("eccentricity ratio and effective squeeze velocity")
@@ -184,7 +184,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
         derivative_builder.append_assignment(replace_stored_speed(step))
     derivative_builder.begin_section("contact")
     extra_variables = [
-        _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.variables_outside_role
+        _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.optional_variables
     ]  # inputs as well
     F_n = derivative_builder.append_law(normal, (contact.depth, contact.ratio, *extra_variables))["F_n"]
     tangential = contact.make_part_symbol(contact.F_along_t, "dry")
@@ -212,13 +212,13 @@ def replace_stored_speed(step: Assignment) -> Assignment:
 
     The local is 1 while the contact is open. Other equations are returned unchanged.
     """
-    speed_ratio = contact.deltadot / contact.stored
+    speed_ratio = contact.deltadot / contact.stored_approach_speed
     return Assignment(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
 
 
 def read_parameters_from_struct(model: Model, value: sp.Expr) -> sp.Expr:
     """Return an expression with parameters, and reciprocals of parameters, as fields of the C struct Parameters."""
-    return model.symbols.read_at_places(hoist_reciprocals(model.parameter_table, value))
+    return model.symbols.read_from_storage_locations(hoist_reciprocals(model.parameter_table, value))
 
 
 def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
