@@ -144,7 +144,8 @@ def work_facts(work: str) -> dict[str, str]:
     gap, rhs = press.reference_gap(work), press.Kernel(press.work(work)).seconds_per_rhs * 1e6
     found = {
         "right-hand side of the reference solvers in dense C": f"{rhs:.2f} µs (goal: at most 5.5 µs)",
-        "difference of a second method from the reference": f"slider {gap.slider:.0e} of its stroke, path {gap.path:.0e} of the clearance",
+        "difference of a second method from the reference": f"slider {gap.slider:.0e} of its stroke,"
+        f" path {gap.path:.0e} of the clearance",
     }
     if work == "dry":
         found["difference of a second method from the reference"] += f", onset {gap.onset:.0e} s"
