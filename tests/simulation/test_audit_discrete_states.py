@@ -100,7 +100,6 @@ def test_phases_of_laws_whose_end_is_missed(condition: str, tmp_path: Path) -> N
 QUIET = (
     ("nine_bar_press", "dry", 0.05, 1e-5),
     ("nine_bar_press", "lubricated", 0.05, 1e-5),
-    ("guided_slider_crank", "elastic", 0.02, 1e-5),
     ("guided_slider_crank", "hard", 0.05, 1e-5),
     ("bouncing_ball", "damped", 2.0, 1e-5),
     ("belt_block", "ideal", 5.0, 1e-3),
