@@ -105,7 +105,7 @@ IN_C = {check.name for check in CHECKS}
             {"defect", "gap", "position", "velocity", "acceleration", "branch", "force", "step"},
         ),
         ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration", "step"}),
-        ("nine_bar_press", "dry", "rk4", {"free", "position", "velocity", "acceleration", "branch"}),
+        ("nine_bar_press", "dry", "rk4", {"gap", "free", "position", "velocity", "acceleration", "branch"}),
         ("pendulum", "ideal", "rk4", {"position", "velocity", "acceleration"}),
     ],
 )
