@@ -52,6 +52,7 @@ from gudgeon.model.deferred_fields import make_with_deferred_fields
 
 # contacts that are stored in the first block, and in later ones
 FIRST_BLOCK_CONTACTS, BLOCK_CONTACTS = MAX_LISTED, 16 * MAX_LISTED
+AUDIT_ARRAYS = "audit_values", "audit_times", "audit_locations"  # largest value of each check, its time, its location
 
 
 def _convert_contacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
@@ -261,7 +262,7 @@ class StoredRuns:
         """Return the audit findings of run i; () for runs of a time loop in Python."""
         if i in self.python_lists:
             return ()
-        return build_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
+        return build_findings(self.compiled.source, *(self.arrays[x][i] for x in AUDIT_ARRAYS))
 
     def get_contacts(self, i: int) -> NDArray[Any]:
         """Return the contacts (IMPACT_DTYPE) of run i, sorted by onset; a copy for runs in C."""
@@ -430,5 +431,5 @@ class _TrajectoryParts:
 
     def audit(self) -> tuple[Finding, ...]:
         """Return the findings of the audit of steps; () for a run of a time loop in Python."""
-        rows = (self.arrays[f"audited{x}"][self.i] for x in ("", "_t", "_where"))
+        rows = (self.arrays[x][self.i] for x in AUDIT_ARRAYS)
         return () if self.is_driven else build_findings(self.compiled.source, *rows)
