@@ -97,7 +97,7 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
 def find_si_unit(dimension: Dimension) -> str:
     """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number.
 
-    Dimensions with a unit of their own have its symbol, such as N.
+    Common quantities of mechanics have their usual unit, such as N*m for a torque; others have base units.
     """
     if dimension == DIMENSIONLESS:
         return ""
