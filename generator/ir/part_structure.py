@@ -8,21 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import sympy as sp
 
+from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Guard, Line, Return, Statement
 from gudgeon.generator.ir.values import ContinuedSum, Test
-from gudgeon.generator.symbols.derivatives import find_operation_classes
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
-from gudgeon.generator.symbols.switches import ComparedMagnitude
-from gudgeon.generator.symbols.unevaluated import Unevaluated, UnevaluatedQuotient
+from gudgeon.generator.symbols.storage import Key, Place
 
-# Operations whose text depends on the text of their arguments only, not on its order as a string or on a table.
-_PLAIN_OPERATIONS = frozenset({sp.Pow, sp.sin, sp.cos, ComparedMagnitude, Unevaluated, UnevaluatedQuotient})
 _FIRST_MARK, _MARKS_OF_OPERAND = 10**9, 100  # above all indices; above all lengths of paths
 
 
@@ -191,31 +186,3 @@ class _StructureFinder:
             for x in test.bound
         ]
         return test.relation, test.compares_magnitude, self._describe_value(test.value), *bound
-
-
-@lru_cache(1_000_000)
-def find_expression_structure(expression: sp.Basic) -> tuple[Hashable, tuple[Key, ...]] | None:
-    """Return (structure, locals and storage locations of its symbols in the order of the first occurrence).
-
-    Expressions of equal structure have the same text but for the texts of their symbols: the structure contains the
-    order of the symbols' names, by which terms and factors are ordered. None for operations whose text depends on more.
-    Results are cached.
-    """
-    if not find_operation_classes(expression) <= _PLAIN_OPERATIONS:
-        return None
-    number_by_symbol: dict[sp.Basic, int] = {}
-    structure = _describe_expression(expression, number_by_symbol)
-    symbols = tuple(number_by_symbol)
-    if not all(type(symbol) in (sp.Symbol, PlaceSymbol) for symbol in symbols):
-        return None
-    order = tuple(sorted(range(len(symbols)), key=lambda k: symbols[k].name))
-    return (structure, order), tuple(map(find_value_key, symbols))
-
-
-def _describe_expression(expression: sp.Basic, number_by_symbol: dict[sp.Basic, int]) -> Hashable:
-    """Return an expression as nested tuples, with the number of each symbol; symbols are numbered as they are met."""
-    if expression.is_Symbol:
-        return number_by_symbol.setdefault(expression, len(number_by_symbol))
-    if not expression.args:
-        return type(expression), expression
-    return type(expression), *[_describe_expression(operand, number_by_symbol) for operand in expression.args]

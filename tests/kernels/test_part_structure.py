@@ -8,7 +8,7 @@ import sympy as sp
 
 from benchmarks.peers.chains import written
 from gudgeon.generator.ir import part_structure
-from gudgeon.generator.ir.part_structure import find_expression_structure
+from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol, make_real_symbol

@@ -6,12 +6,11 @@ import math
 import re
 import sys
 import textwrap
-from collections.abc import Hashable
 
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
-from gudgeon.generator.ir.part_structure import find_expression_structure
+from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi
 from gudgeon.generator.ir.values import Conditional, ContinuedSum, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
@@ -21,7 +20,7 @@ from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 _PLAIN = Readable(())
-_TEMPLATES: dict[tuple[type, Hashable], str] = {}  # (class of printer, structure) -> text with {k} for symbol k
+_TEMPLATES: dict[tuple[type, int], str] = {}  # (class of printer, number of structure) -> text with {k} for symbol k
 
 
 class CPrinter(CachedPrinter, C99CodePrinter):
