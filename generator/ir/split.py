@@ -343,11 +343,6 @@ def _order_lines(items: list[TitledLine]) -> list[TitledLine]:
     ]
 
 
-def _make_load(name: str, place: Place) -> TitledLine:
-    """Return the line that reads a local from its element of the array of passed values."""
-    return TitledLine("values from the part", Statement(name, place), place.names, False)
-
-
 def _insert_argument_copies(items: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
     """Return the lines of the calling function with the copies of arguments inserted that it reads.
 
@@ -386,14 +381,21 @@ class _Splitter:
         names = names.union(*(self.argument_copies[name].reads for name in names & self.argument_copies.keys()))
         return (*self.kernel.arguments, *(argument for argument in self.added_arguments if argument.name in names))
 
-    def make_store_line(self, name: str) -> TitledLine:
+    def make_store_line(self, name: str, title: str = "values for later parts") -> TitledLine:
         """Return the line that stores the local `name` in its element of the array of passed values."""
-        statement = Statement(Place(self.array_name)[self.index_of_passed[name]], Place(name))
-        return TitledLine("values for later parts", statement, frozenset({name}), False)
+        statement = Statement(Place(self.array_name, (self.index_of_passed[name],)), Place(name))
+        return TitledLine(title, statement, frozenset((name,)), False)
 
-    def make_load_line(self, name: str) -> TitledLine:
+    def make_load_line(self, name: str, title: str = "values from the part") -> TitledLine:
         """Return the line that reads the local `name` of another part from the array of passed values."""
-        return _make_load(name, Place(self.array_name)[self.index_of_passed[name]])
+        place = Place(self.array_name, (self.index_of_passed[name],))
+        return TitledLine(title, Statement(name, place), place.names, False)
+
+    def make_reading_line(self, name: str, title: str) -> TitledLine:
+        """Return the line that reads the local `name`: a copy of an argument, or a value of another part."""
+        if copy_ := self.argument_copies.get(name):
+            return TitledLine(title, copy_.line, copy_.reads, copy_.movable)
+        return self.make_load_line(name, title)
 
     def make_part(self, name: str, piece: list[TitledLine]) -> Kernel:
         """Return the piece of lines as a function `name`.
@@ -408,14 +410,11 @@ class _Splitter:
         for item in piece:
             for name_ in sorted(item.reads - known_names):
                 if name_ in self.argument_copies or name_ in self.index_of_passed:
-                    reading_line = (
-                        self.argument_copies[name_] if name_ in self.argument_copies else self.make_load_line(name_)
-                    )
-                    lines.append(replace(reading_line, title=item.title))
+                    lines.append(self.make_reading_line(name_, item.title))
                     known_names.add(name_)
             lines.append(replace(item, line=replace(item.line, jumps=False)) if isinstance(item.line, Guard) else item)
             if item.defines in self.index_of_passed:
-                lines.append(replace(self.make_store_line(item.defines), title=item.title))
+                lines.append(self.make_store_line(item.defines, item.title))
         end_lines = [TitledLine("", Return(), frozenset(), False)] if has_test else []
         return Kernel(
             name,
