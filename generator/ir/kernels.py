@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.signatures import Argument
 from gudgeon.generator.ir.statements import DeclareBranches, Line, SolveDependentRows, Statement
 from gudgeon.generator.ir.values import Value
@@ -19,6 +20,8 @@ from gudgeon.generator.symbols.derivatives import find_operation_classes, find_s
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, make_real_symbol
 from gudgeon.generator.symbols.switches import BranchOf, Switches
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
+
+_COUNTS: dict[int, int] = {}  # number of the structure of an expression -> operations
 
 
 @dataclass(frozen=True)
@@ -68,9 +71,19 @@ def count_operations(expression: sp.Expr) -> int:
     """Return the number of operations of an expression as SymPy counts them, but without negations.
 
     These are folded into additions. Reciprocals of symbols, and sums and products without quotients are counted here,
-    because SymPy takes ten times as long; other parts by SymPy.
+    because SymPy takes ten times as long; other parts by SymPy. Expressions of equal structure are counted once.
     """
-    n_operations, pending = 0, [sp.sympify(expression)]
+    expression = sp.sympify(expression)
+    if (found := find_expression_structure(expression)) is None:
+        return _count_each_operation(expression)
+    if (n_operations := _COUNTS.get(found[0])) is None:
+        n_operations = _COUNTS[found[0]] = _count_each_operation(expression)
+    return n_operations
+
+
+def _count_each_operation(expression: sp.Basic) -> int:
+    """Return `count_operations` of an expression, whose parts are counted one by one."""
+    n_operations, pending = 0, [expression]
     while pending:
         expression_ = pending.pop()
         if expression_.is_Symbol or expression_.is_Integer:

@@ -14,13 +14,15 @@ from functools import lru_cache
 
 import sympy as sp
 
+from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import Key, Place, find_value_key
 
 MIN_REPETITIONS = 3  # of a group for which a function with index tables is shorter
 
 Pair = tuple[int, int]
+_STRUCTURE_KEYS: dict[Hashable, Hashable] = {}  # (structure of an expression, kinds of its operands) -> structure key
 
 
 def divide_into_repeats(shapes: Sequence[Hashable], max_length: int, min_length: int) -> list[tuple[int, bool]]:
@@ -97,7 +99,7 @@ def make_line_structure_key(line: Line, copies: Mapping[str, Line]) -> Hashable:
     `copies`: the statements that copy arguments, by the name of their local. Lines of one shape usually differ in
     names, numbers of elements and statuses only; a target that merges their code compares the texts.
     """
-    shapes = [_make_structure_key(expression, copies) for expression in line.expressions]
+    shapes = [_make_cached_structure_key(expression, copies) for expression in line.expressions]
     if isinstance(line, Statement):
         return (_find_place_kind(line.target), type(line.value).__name__, _find_place_kind(line.value), *shapes)
     return (type(line).__name__, *shapes)
@@ -113,6 +115,23 @@ def _find_place_kind(value: object) -> Hashable:
     return (value.base, *(step for step in value.path if isinstance(step, str))) if isinstance(value, Place) else ""
 
 
+def _make_cached_structure_key(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
+    """Return `_make_structure_key`, which is derived once for expressions of equal structure and kinds of operands."""
+    if (found := find_expression_structure(expression)) is None:
+        return _make_structure_key(expression, copies)
+    structure, keys = found
+    kinds = tuple([_find_operand_kind(key, copies) for key in keys])
+    if (key := _STRUCTURE_KEYS.get((structure, kinds))) is None:
+        key = _STRUCTURE_KEYS[structure, kinds] = _make_structure_key(expression, copies)
+    return key
+
+
+def _find_operand_kind(key: Key, copies: Mapping[str, Line]) -> Hashable:
+    """Return the kind of storage location that an operand is or copies; "" for a local that copies none."""
+    copy = key if isinstance(key, Place) else copies.get(key)
+    return _find_place_kind(copy.value if isinstance(copy, Statement) else copy)
+
+
 def _make_structure_key(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
     """Return the structure of an expression as nested tuples, with the kind of storage location for each symbol.
 
@@ -120,10 +139,7 @@ def _make_structure_key(expression: sp.Basic, copies: Mapping[str, Line]) -> Has
     factors of a product are in the order of the names of their symbols, as in the text.
     """
     if expression.is_Symbol:
-        if isinstance(expression, PlaceSymbol):
-            return _find_place_kind(expression.place)
-        copy = copies.get(expression.name)
-        return _find_place_kind(copy.value) if isinstance(copy, Statement) else ""
+        return _find_operand_kind(find_value_key(expression), copies)
     operands = expression.args
     if not operands:
         return str(expression)

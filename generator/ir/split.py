@@ -352,11 +352,6 @@ def _order_lines(titled_lines: list[TitledLine]) -> list[TitledLine]:
     ]
 
 
-def _make_load(name: str, place: Place) -> TitledLine:
-    """Return the line that reads a local from its element of the array of passed values."""
-    return TitledLine("values from the part", Statement(name, place), place.names, False)
-
-
 def _insert_argument_copies(titled_lines: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
     """Return the lines of the calling function with the copies of arguments inserted that it reads.
 
@@ -395,14 +390,21 @@ class _Splitter:
         names = names.union(*(self.argument_copies[name].reads for name in names & self.argument_copies.keys()))
         return (*self.kernel.arguments, *(argument for argument in self.added_arguments if argument.name in names))
 
-    def make_store_line(self, name: str) -> TitledLine:
+    def make_store_line(self, name: str, title: str = "values for later parts") -> TitledLine:
         """Return the line that stores the local `name` in its element of the array of passed values."""
-        statement = Statement(Place(self.array_name)[self.index_of_passed[name]], Place(name))
-        return TitledLine("values for later parts", statement, frozenset({name}), False)
+        statement = Statement(Place(self.array_name, (self.index_of_passed[name],)), Place(name))
+        return TitledLine(title, statement, frozenset((name,)), False)
 
-    def make_load_line(self, name: str) -> TitledLine:
+    def make_load_line(self, name: str, title: str = "values from the part") -> TitledLine:
         """Return the line that reads the local `name` of another part from the array of passed values."""
-        return _make_load(name, Place(self.array_name)[self.index_of_passed[name]])
+        place = Place(self.array_name, (self.index_of_passed[name],))
+        return TitledLine(title, Statement(name, place), place.names, False)
+
+    def make_reading_line(self, name: str, title: str) -> TitledLine:
+        """Return the line that reads the local `name`: a copy of an argument, or a value of another part."""
+        if copy_ := self.argument_copies.get(name):
+            return TitledLine(title, copy_.line, copy_.reads, copy_.movable)
+        return self.make_load_line(name, title)
 
     def make_part(self, name: str, piece: list[TitledLine]) -> Kernel:
         """Return the piece of lines as a function `name`.
@@ -417,10 +419,7 @@ class _Splitter:
         for titled_line in piece:
             for name_ in sorted(titled_line.reads - known_names):
                 if name_ in self.argument_copies or name_ in self.index_of_passed:
-                    reading_line = (
-                        self.argument_copies[name_] if name_ in self.argument_copies else self.make_load_line(name_)
-                    )
-                    lines.append(replace(reading_line, title=titled_line.title))
+                    lines.append(self.make_reading_line(name_, titled_line.title))
                     known_names.add(name_)
             lines.append(
                 replace(titled_line, line=replace(titled_line.line, jumps=False))
@@ -428,7 +427,7 @@ class _Splitter:
                 else titled_line
             )
             if titled_line.defines in self.index_of_passed:
-                lines.append(replace(self.make_store_line(titled_line.defines), title=titled_line.title))
+                lines.append(self.make_store_line(titled_line.defines, titled_line.title))
         end_lines = [TitledLine("", Return(), frozenset(), False)] if has_test else []
         return Kernel(
             name,

@@ -22,6 +22,7 @@ from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
 from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
 from gudgeon.generator.ir.statements import DeclareBranches, Line, Statement
+from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Select
 from gudgeon.generator.symbols.unevaluated import Unevaluated
@@ -255,7 +256,8 @@ class _TermCollector:
         the array is the time or the parameters. Statements must come in the order of the function.
         """
         if isinstance(statement.value, sp.Expr):
-            statement = replace(statement, value=convert_to_heaviside_form(statement.value))
+            converted = convert_to_heaviside_form(statement.value)
+            statement = statement if converted is statement.value else replace(statement, value=converted)
         value, local = statement.value, statement.declared_local
         if not isinstance(value, sp.Basic):
             if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
@@ -263,12 +265,12 @@ class _TermCollector:
             if value == Place(TIME.name):
                 self.time = local
             return
-        names = {symbol.name for symbol in value.free_symbols}
+        names = {symbol.name for symbol in find_symbols(value)}
         if names <= self.known.keys():
             if local:
                 self.known[local] = statement
             self.collect_terms(value)
-        else:
+        elif self.time in names or not names.isdisjoint(self.definition_by_local):
             for part in sp.preorder_traversal(value):
                 if isinstance(part, (sp.Add, sp.Mul)):
                     part = part.func(*(factor for factor in part.args if self.depends_on_time_only(factor)))

@@ -8,11 +8,12 @@ their order stay as they are, so that results are the same bit for bit.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.readable import Readable
+from gudgeon.generator.ir.part_structure import PartStructure, find_part_structure, format_parameter_mark
+from gudgeon.generator.ir.readable import Readable, make_readable
 from gudgeon.generator.ir.repeats import MIN_REPETITIONS
 from gudgeon.generator.ir.signatures import Access, Number, make_input_argument
 from gudgeon.generator.ir.statements import AssignStatus, Call, Line, Statement
@@ -32,6 +33,7 @@ _CALL_WITH_ADDRESS = "evaluate_contour("  # the call that gets the address of a 
 
 TextOfLine = tuple[str, Line | None]
 PrintedPart = tuple[Kernel, Readable, list[TextOfLine]]  # the first text is the head of the function
+PrintLines = Callable[[Kernel, Readable], Iterator[TextOfLine]]
 
 
 @dataclass(frozen=True)
@@ -47,15 +49,19 @@ class _NormalizedPart:
     operands: list[str]
 
 
-def merge_equal_parts(
-    parts: Sequence[PrintedPart], print_head: Callable[[Kernel, Readable], str]
-) -> tuple[list[PrintedPart], dict[str, Call]]:
+def print_part(part: Kernel, print_lines: PrintLines) -> PrintedPart:
+    """Return (kernel, its readable form, [(C text, line or None)]) of a kernel that is one C function."""
+    readable = make_readable(part)
+    return part, readable, list(print_lines(part, readable))
+
+
+def merge_equal_parts(parts: Sequence[Kernel], print_lines: PrintLines) -> tuple[list[PrintedPart], dict[str, Call]]:
     """Return (printed parts with clones merged, {name of a merged part: its new call without the old arguments}).
 
     Parts with the same normalized text are merged if there are at least MIN_REPETITIONS; the first of them becomes the
-    function. `print_head` returns comment and signature of a kernel. `redirect_calls` applies the new calls.
+    function. `print_lines` prints a kernel line by line, head first. `redirect_calls` applies the new calls.
     """
-    normalized_parts = [_normalize_part(part) for part in parts]
+    normalized_parts, printed = _normalize_parts(parts, print_lines)
     groups: dict[str, list[int]] = {}
     for k, normalized in enumerate(normalized_parts):
         groups.setdefault(normalized.key, []).append(k)
@@ -64,12 +70,62 @@ def merge_equal_parts(
     for k, part in enumerate(parts):
         group = groups[normalized_parts[k].key]
         if len(group) < MIN_REPETITIONS:
-            joined.append(part)
+            joined.append(printed.get(k) or print_part(part, print_lines))
         elif k == group[0]:
-            table = _OperandTable(f"{part[0].name}_rows", [normalized_parts[member].operands for member in group])
-            joined.append(_print_joined_part(part, normalized_parts[k], table, print_head))
-            calls |= {parts[member][0].name: table.make_call(part[0].name, row) for row, member in enumerate(group)}
+            table = _OperandTable(f"{part.name}_rows", [normalized_parts[member].operands for member in group])
+            joined.append(_print_joined_part(printed[k], normalized_parts[k], table, print_lines))
+            calls |= {parts[member].name: table.make_call(part.name, row) for row, member in enumerate(group)}
     return joined, calls
+
+
+def _normalize_parts(
+    parts: Sequence[Kernel], print_lines: PrintLines
+) -> tuple[list[_NormalizedPart], dict[int, PrintedPart]]:
+    """Return the parts in normalized form, and by number those of them that are printed.
+
+    Of several parts with equal structure (ir/part_structure.py) the first is printed; the others differ from it in
+    their operands only, and have its texts.
+    """
+    normalized_parts: list[_NormalizedPart] = []
+    printed: dict[int, PrintedPart] = {}
+    first_by_structure: dict[Hashable, int] = {}
+    sources: dict[int, list[int | str]] = {}
+    for k, part in enumerate(parts):
+        structure = find_part_structure(part)
+        first = first_by_structure.setdefault(structure.key, k) if structure else k
+        if structure is None or first == k:
+            printed[k] = print_part(part, print_lines)
+            normalized_parts.append(_normalize_part(printed[k]))
+            continue
+        if first not in sources:
+            sources[first] = _find_operand_sources(printed[first], normalized_parts[first].key, print_lines)
+        operands = [_format_operand(structure, source) for source in sources[first]]
+        normalized_parts.append(replace(normalized_parts[first], operands=operands))
+    return normalized_parts, printed
+
+
+def _find_operand_sources(part: PrintedPart, key: str, print_lines: PrintLines) -> list[int | str]:
+    """Return for each operand in the order of the text its mark, or its text if parts of equal structure share it.
+
+    `key`: that of the normalized part.
+    """
+    kernel, readable, _ = part
+    structure = find_part_structure(kernel)
+    assert structure
+    marked = structure.mark_operands(readable)
+    normalized = _normalize_part((kernel, marked, list(print_lines(kernel, marked))))
+    assert normalized.key == key
+    marks = {str(mark): mark for mark in structure.list_marks()}
+    marks |= {f"{PARAMETER_INDEX}({format_parameter_mark(mark)})": mark for mark in structure.list_marks()}
+    return [marks.get(text, text) for text in normalized.operands]
+
+
+def _format_operand(structure: PartStructure, source: int | str) -> str:
+    """Return an operand of a part as text, from its mark; a text is returned unchanged."""
+    if isinstance(source, str):
+        return source
+    value = structure.get_marked_value(source)
+    return f"{PARAMETER_INDEX}({value})" if isinstance(value, str) else str(value)
 
 
 def redirect_calls(kernel: Kernel, calls: Mapping[str, Call]) -> Kernel:
@@ -203,7 +259,7 @@ def _print_joined_part(
     part: PrintedPart,
     normalized: _NormalizedPart,
     table: _OperandTable,
-    print_head: Callable[[Kernel, Readable], str],
+    print_lines: PrintLines,
 ) -> PrintedPart:
     """Return the merged function of clones, after the definition of its table if the table has columns.
 
@@ -229,6 +285,6 @@ def _print_joined_part(
     texts = [(_replace_tokens(text, read_operand_from_table), line) for text, line in normalized.texts]
     note = f"{table.n_rows} parts are equal; names are those of the first, `{_TABLE_ROW.name}` is a row of a table."
     arguments = (*((_TABLE_ROW,) if table.columns else ()), *kernel.arguments)
-    head = print_head(replace(kernel, doc=(*kernel.doc, note), arguments=arguments), readable)
+    head, _ = next(iter(print_lines(replace(kernel, doc=(*kernel.doc, note), arguments=arguments), readable)))
     definition: list[TextOfLine] = [(table.print_definition(), None)] if table.columns else []
     return kernel, readable, [*definition, (head, None), *texts]

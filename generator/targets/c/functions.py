@@ -9,7 +9,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, make_readable, make_readable_statements
+from gudgeon.generator.ir.readable import Readable, make_readable_statements
 from gudgeon.generator.ir.series_rules import StoreRow
 from gudgeon.generator.ir.signatures import Access, Argument, Number, Type
 from gudgeon.generator.ir.split import split_kernel
@@ -37,7 +37,7 @@ from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, find_value_key
-from gudgeon.generator.targets.c.equal_parts import PrintedPart, merge_equal_parts, redirect_calls
+from gudgeon.generator.targets.c.equal_parts import PrintedPart, merge_equal_parts, print_part, redirect_calls
 from gudgeon.generator.targets.c.long_sums import split_long_sums
 from gudgeon.generator.targets.c.printer import (
     WIDTH,
@@ -440,20 +440,9 @@ def print_kernel_parts(kernel: Kernel) -> Iterator[PrintedPart]:
     (equal_parts.py). The first text of each is its head, or the table of a merged part.
     """
     *parts, main = split_kernel(split_long_sums(kernel))
-    printed, calls = merge_equal_parts([_print_part(part) for part in parts], _print_head)
+    printed, calls = merge_equal_parts(parts, _print_part_lines)
     yield from printed
-    yield _print_part(redirect_calls(main, calls))
-
-
-def _print_part(part: Kernel) -> PrintedPart:
-    """Return (kernel, its readable form, [(C text, line or None)]) of a kernel that is one C function."""
-    readable_lines = make_readable(part)
-    return part, readable_lines, list(_print_part_lines(part, readable_lines))
-
-
-def _print_head(part: Kernel, readable_lines: Readable) -> str:
-    """Return the comment and the signature of a part, up to its opening brace."""
-    return next(iter(_print_part_lines(part, readable_lines)))[0]
+    yield print_part(redirect_calls(main, calls), _print_part_lines)
 
 
 def _print_part_lines(part: Kernel, readable_lines: Readable) -> Iterator[tuple[str, Line | None]]:

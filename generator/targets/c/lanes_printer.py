@@ -59,7 +59,7 @@ class LanesPrinter(printer.CPrinter):
 
     def _print_vector(self, expr: sp.Expr) -> str:
         """Print an expression as a vector: a constant is broadcast to all lanes."""
-        text: str = self._print(expr)
+        text = self.print_by_structure(expr)
         return text if expr.free_symbols else f"broadcast({text})"
 
     def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:

@@ -10,6 +10,7 @@ import textwrap
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
+from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi
 from gudgeon.generator.ir.values import Conditional, ContinuedSum, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
@@ -19,6 +20,7 @@ from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 _PLAIN = Readable(())
+_TEMPLATES: dict[tuple[type, int], str] = {}  # (class of printer, number of structure) -> text with {k} for symbol k
 
 
 class CPrinter(CachedPrinter, C99CodePrinter):
@@ -30,6 +32,21 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def __init__(self, readable_lines: Readable = _PLAIN) -> None:
         super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
         self.readable = readable_lines
+
+    def doprint(self, expr: sp.Expr) -> str:
+        """Return an expression as C. Raises ValueError for an operation that C does not have."""
+        return self.print_by_structure(sp.sympify(expr))
+
+    def print_by_structure(self, expr: sp.Expr) -> str:
+        """Print an expression; those that differ in their symbols only are printed once by SymPy, as a template."""
+        if (found := find_expression_structure(expr)) is None:
+            return self._print(expr)
+        structure, keys = found
+        template = _TEMPLATES.get((type(self), structure))
+        if template is None:
+            names: dict[Key, Key] = {key: f"{{{k}}}" for k, key in enumerate(keys)}
+            template = _TEMPLATES[type(self), structure] = type(self)(Readable((), names))._print(expr)
+        return template.format(*map(self.get_name, keys))
 
     def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""
