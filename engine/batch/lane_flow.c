@@ -6,8 +6,11 @@
 #include "lane_calls.h"
 #include "lane_exchange.c"
 
-/* runs reported at once: a call from Python is as long as several steps */
-enum { MIN_REPORTED = MAX_GROUP_RUNS / LANES };
+/*
+ * Number of runs that must wait for Python before it is called. A call costs as much as tens of steps, because Python's
+ * code is not in the caches of the processor. Where several runs share a lane, the other runs of the lane continue.
+ */
+enum { MIN_REPORTED = LANE_SERIES ? 1 : MAX_GROUP_RUNS / 4 };
 
 /*
  * Store the method that the group's run i needs next, after a call for that run returned `result`. After RUN_ENDED its
