@@ -10,14 +10,16 @@
 static int is_batch_ending(void *caller) { return *((const Batch *)caller)->ending; }
 
 /*
- * Start the polling of a run's cancellation token: by the callback of the batch every batch->every seconds; if it has
- * none, every POLL_INTERVAL_S whether the batch is ending.
+ * Start the polling of a run's cancellation token: by the callback of the batch every batch->every seconds, for the
+ * first time after that interval, because the caller polls before it calls C; if it has no callback, every
+ * POLL_INTERVAL_S whether the batch is ending.
  */
 static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 {
-    if (batch->ask)
+    if (batch->ask) {
         start_polling(cancellation, batch->ask, batch->caller, batch->every);
-    else
+        cancellation->next = read_clock() + batch->every;
+    } else
         start_polling(cancellation, is_batch_ending, (void *)batch, POLL_INTERVAL_S);
 }
 

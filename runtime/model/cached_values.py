@@ -36,6 +36,21 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
     with values that cannot be compared by a hash are not cached; nor are exceptions. Results are shared between calls:
     callers must not change them.
     """
+    return _cache_by_key(function, None)
+
+
+def cache_selected_values(select: Callable[..., tuple[Any, ...]]) -> Callable[..., Callable[..., Value]]:
+    """Return a decorator as `cache_by_values` for functions that depend on a part of their arguments only.
+
+    `select` returns that part, from the same arguments: the values that are compared.
+    """
+    return lambda function: _cache_by_key(function, select)
+
+
+def _cache_by_key(
+    function: Callable[..., Value], select: Callable[..., tuple[Any, ...]] | None
+) -> Callable[..., Value]:
+    """Cache the results of a function by the values of its arguments, or of what `select` returns for them."""
     name = f"{function.__module__}.{function.__name__}"
 
     @wraps(function)
@@ -47,7 +62,7 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
         entry: Any = name
         if arguments:
             key: list[Any] = [name]
-            for argument in arguments:
+            for argument in arguments if select is None else select(owner, *arguments):
                 if type(argument) is np.ndarray:
                     if argument.nbytes > MAX_BYTES:
                         return function(owner, *arguments)

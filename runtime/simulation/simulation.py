@@ -319,9 +319,9 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             file_start = assemble_file_start(self.compiled, p)
             warn_guess_deviations(self.source, file_start.guess_deviations)
             q, v, memory = file_start.q.copy(), file_start.v.copy(), file_start.memory.copy()
-            remarks, allowed_error = remarks + file_start.notes, file_start.allowed_error
+            remarks += file_start.notes
         else:
-            q, v, memory, allowed_error = initial_state.q, initial_state.v, initial_state.memory, None
+            q, v, memory = initial_state.q, initial_state.v, initial_state.memory
             check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
             remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
@@ -346,7 +346,6 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             settings.audit,
             initial_state,
             observer,
-            allowed_error,
             ctrl_c.raise_delayed,
         )
         result = self._integrate_problem(problem, given, is_given, observer, ctrl_c)
