@@ -89,7 +89,7 @@ class SingleRunArrays(dict[str, NDArray[Any]]):
 
     def find_pointers(self, ffi: Any, names: Iterable[str]) -> list[Any]:
         """Return C pointers to the arrays `names` of doubles, which are valid as long as this object exists."""
-        first, fields = ffi.from_buffer("double[]", self._block), self._layout.fields
+        first, fields = ffi.cast("double *", make_pointer(ffi, self._block, "void *")), self._layout.fields
         return [first + fields[name][0] // 8 for name in names]
 
     def __reduce__(self) -> Any:

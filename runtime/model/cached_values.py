@@ -13,7 +13,8 @@ import numpy as np
 from gudgeon.contract.kernel_source import CACHED_VALUES
 
 Value = TypeVar("Value")
-MAX_ENTRIES = 256  # of one scene, of all functions together; the oldest is dropped first
+# of one scene, of all functions together; the oldest is dropped first, but those that depend on the scene alone stay
+MAX_ENTRIES = 256
 MAX_BYTES = 1 << 16  # of an array in a key: calls with larger arrays are not cached
 _LOCK = Lock()
 _EMPTY: dict[Any, Any] = {}  # the cache of an owner without one; as a value: not cached
@@ -39,7 +40,9 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
     return _cache_by_key(function, None)
 
 
-def cache_selected_values(select: Callable[..., tuple[Any, ...]]) -> Callable[..., Callable[..., Value]]:
+def cache_selected_values(
+    select: Callable[..., tuple[Any, ...]],
+) -> Callable[[Callable[..., Value]], Callable[..., Value]]:
     """Return a decorator as `cache_by_values` for functions that depend on a part of their arguments only.
 
     `select` returns that part, from the same arguments: the values that are compared.
@@ -80,8 +83,8 @@ def _cache_by_key(
         value = function(owner, *arguments)
         with _LOCK:
             cache = owner.__dict__.setdefault(CACHED_VALUES, {})
-            while len(cache) >= MAX_ENTRIES:
-                del cache[next(iter(cache))]
+            while len(cache) >= MAX_ENTRIES and (oldest := next((x for x in cache if type(x) is tuple), None)):
+                del cache[oldest]
             cache[entry] = value
         return value
 

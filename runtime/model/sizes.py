@@ -57,6 +57,12 @@ def find_length_indices(source: KernelSource) -> NDArray[np.intp]:
     return np.array(sorted(clearances | lengths | find_contour_parameters(source)), dtype=np.intp)
 
 
+@cache_by_values
+def find_size_parameters(source: KernelSource) -> NDArray[np.intp]:
+    """Return the indices into p of all values on which the size of the mechanism depends."""
+    return np.array(sorted({k for pair in find_size_indices(source) for k in pair if k >= 0}), dtype=np.intp)
+
+
 def select_lengths(source: KernelSource, p: Array) -> Array:
     """Return the values of one run on which the size and the clearances depend, for caches with them as keys."""
     return p.take(find_length_indices(source))

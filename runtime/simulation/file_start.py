@@ -14,7 +14,7 @@ from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import Start, assemble_start
 from gudgeon.model.cached_values import cache_by_values, cache_selected_values
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import find_size_indices
+from gudgeon.model.sizes import find_size_parameters
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def _find_start_indices(compiled: CompiledModel) -> NDArray[np.intp]:
     source, values = compiled.source, np.zeros(compiled.n_p)
     if source.methods == ("kinematic",) or any(name.count(".") > 1 for name in source.start_guess):
         return np.arange(compiled.n_p)
-    other, indices = values.copy(), {k for pair in find_size_indices(source) for k in pair if k >= 0}
+    other, indices = values.copy(), {*find_size_parameters(source).tolist()}
     pointers = compiled.pointer(values), compiled.pointer(other)
     for k in range(compiled.n_p):
         other[k] = 1.0
