@@ -247,10 +247,7 @@ def parse_plain_number(text: str) -> float | None:
 
 
 def insert_space_before_unit(text: str) -> str:
-    """Return the text with a space before the unit of a number: "0.5mm" becomes "0.5 mm".
-
-    Other texts are returned without the spaces around them.
-    """
+    """Return the text with a space before the unit of a number ("0.5mm" becomes "0.5 mm"), without spaces around it."""
     match = _NUMBER_WITH_UNIT.fullmatch(text.strip())
     return f"{match[1]} {match[2]}" if match else text.strip()
 
@@ -264,19 +261,15 @@ def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str
     return prepare_run_values(compiled, given_values, is_given)[0], given_values, is_given
 
 
-def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> tuple[Array, Array]:
-    """Return the checked values p for given parameters and mask, and those without Baumgarte gains, (n_p,) each.
-
-    The second are for methods that project; see `prepare_without_baumgarte`. Raises BadValueError.
-    """
-    p, p_motion = _prepare_run(compiled, given_values, is_given).copy()
-    return p, p_motion
+def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
+    """Return what `compute_run_values` returns, cached for equal values: a copy."""
+    return _prepare_run(compiled, given_values, is_given).copy()
 
 
 def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
-    """Return the checked values p of a run and those without Baumgarte gains, (2, n_p).
+    """Return the checked values p for given parameters and mask, and those without Baumgarte gains, (2, n_p).
 
-    Raises BadValueError for values that violate a condition.
+    The second are for methods that project; see `prepare_without_baumgarte`. Raises BadValueError.
     """
     source, shape = compiled.source, (2, len(given_values))
     pair, masks, values = np.empty(shape), np.empty(shape, FLAG), np.empty((2, compiled.n_p))
@@ -289,8 +282,7 @@ def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: N
     return values
 
 
-# the same, cached for equal values: callers must not change them
-_prepare_run = cache_by_values(compute_run_values)
+_prepare_run = cache_by_values(compute_run_values)  # callers must not change the values
 
 
 def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
@@ -305,7 +297,7 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
 
 @cache_by_values
 def _find_gain_indices(source: KernelSource) -> list[int]:
-    """Return the indices of the parameters that are Baumgarte gains; callers must not change the list."""
+    """Return the indices of the parameters that are Baumgarte gains; the list must not be changed."""
     return [source.slot_index[name] for name in GAINS if name in source.slot_index]
 
 

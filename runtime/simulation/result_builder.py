@@ -364,6 +364,9 @@ class _ResultParts:
         return collect_provenance(self.problem.compiled, self.date)
 
 
+_COPIED = ("t", "q", "v", "state", "memory", "work", "impacts")  # arrays of a trajectory
+
+
 class _PassingParts(_ResultParts):
     """Build fields of a Result whose samples pass the audit: arrays are copies, as the caller may change them before
     the diagnostics are built. `times` (N,): times (s) at which the samples are evaluated.
@@ -371,7 +374,8 @@ class _PassingParts(_ResultParts):
 
     fields = (
         *_ResultParts.fields,
-        *("p", "t", "q", "v", "state", "memory", "work", "impacts", "evaluation", "accelerations", "diagnostics"),
+        *_COPIED,
+        *("p", "evaluation", "accelerations", "diagnostics"),
     )
 
     def __init__(self, problem: Problem, trajectory: Trajectory, times: Array) -> None:
@@ -382,33 +386,12 @@ class _PassingParts(_ResultParts):
         """Return the parameter values."""
         return self.problem.p.copy()
 
-    def t(self) -> Array:
-        """Return the sample times."""
-        return self.trajectory.t.copy()
-
-    def q(self) -> Array:
-        """Return the coordinates."""
-        return self.trajectory.q.copy()
-
-    def v(self) -> Array:
-        """Return the velocities."""
-        return self.trajectory.v.copy()
-
-    def state(self) -> NDArray[Any]:
-        """Return the contact codes."""
-        return self.trajectory.state.copy()
-
-    def memory(self) -> Array:
-        """Return the discrete states."""
-        return self.trajectory.memory.copy()
-
-    def work(self) -> Array:
-        """Return the works."""
-        return self.trajectory.work.copy()
-
-    def impacts(self) -> NDArray[Any]:
-        """Return the contacts."""
-        return self.trajectory.impacts.copy()
+    def __getattr__(self, name: str) -> Callable[[], Array]:
+        """Return the function that copies an array of the trajectory."""
+        if name not in _COPIED:
+            raise AttributeError(name)
+        copy: Callable[[], Array] = getattr(self.trajectory, name).copy
+        return copy
 
     @cached_property
     def _evaluation(self) -> Evaluation:
