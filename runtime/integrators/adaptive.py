@@ -157,6 +157,11 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     coordinates there is one, rtol, for the works. With a film, tolerances of velocities are smaller. `p`
     (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
+    return _compute_tolerances_and_sizes(compiled, p, rtol)[:2]
+
+
+def _compute_tolerances_and_sizes(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Return what `compute_tolerances` returns, and the mechanism sizes S (...,) in m."""
     source = compiled.source
     with np.errstate(over="ignore", invalid="ignore"):  # runs with such values fail later, one by one
         lengths, sizes = compute_error_lengths(compiled, p)
@@ -167,7 +172,7 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     tolerances = np.concatenate([of_q, of_speed], axis=-1)
     if not tolerances.shape[-1]:
         tolerances = np.full((*lengths.shape, 1), rtol)
-    return tolerances, np.stack([lengths, ratio], axis=-1)
+    return tolerances, np.stack([lengths, ratio], axis=-1), sizes
 
 
 def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: float) -> tuple[Any, Any, Any]:
@@ -192,11 +197,6 @@ def compute_tolerances_of_runs(compiled: CompiledModel, p: Array, rtol: float) -
     if len(p) > 1:
         return _compute_tolerances_and_sizes(compiled, p, rtol)
     return _compute_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
-
-
-def _compute_tolerances_and_sizes(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
-    """Return what `compute_tolerances_of_runs` returns, for several runs, without a cache."""
-    return *compute_tolerances(compiled, p, rtol), compute_mechanism_sizes(compiled.source, p)
 
 
 @cache_by_values

@@ -145,6 +145,8 @@ def find_unresolved_clearances(source: KernelSource, p: Array) -> Array:
 
     The eccentricity is a difference of coordinates, each of which is rounded to 2^-52 of its value.
     """
+    if not source.clearances:
+        return np.zeros((*p.shape[:-1], 0), bool)
     return np.asarray(
         compute_min_clearances(source, p) < MIN_RELATIVE_CLEARANCE * compute_mechanism_sizes(source, p)[..., np.newaxis]
     )
