@@ -10,14 +10,16 @@
 static int is_batch_ending(void *context) { return *((const Batch *)context)->ending; }
 
 /*
- * Start the polling of a run's cancellation token: by the callback of the batch every batch->poll_interval seconds; if
- * it has none, every POLL_INTERVAL_S whether the batch is ending.
+ * Start the polling of a run's cancellation token: by the callback of the batch every batch->poll_interval seconds, for the
+ * first time after that interval, because the caller polls before it calls C; if it has no callback, every
+ * POLL_INTERVAL_S whether the batch is ending.
  */
 static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 {
-    if (batch->is_stop_requested)
+    if (batch->is_stop_requested) {
         start_polling(cancellation, batch->is_stop_requested, batch->context, batch->poll_interval);
-    else
+        cancellation->next = read_clock() + batch->poll_interval;
+    } else
         start_polling(cancellation, is_batch_ending, (void *)batch, POLL_INTERVAL_S);
 }
 

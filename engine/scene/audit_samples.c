@@ -159,3 +159,97 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         relative_errors[1] = fabs(driven - rhs.power[0]) / largest;
     }
 }
+
+/* Return whether all n values are finite; NaN and infinities are not. */
+static int is_sum_finite(const double *values, long n)
+{
+    double sum = 0.0;
+    for (long k = 0; k < n; k++)
+        sum += values[k];
+    return isfinite(sum);
+}
+
+#define START_TOL 1e-9       /* of the size: allowed distance of the first sample from the start (audit.py) */
+#define START_RATES_TOL 1e-6 /* the same of velocities, of the largest one */
+
+/*
+ * Return whether a start (q, v) has the set coordinates of the file, and the first sample y of a run differs from it by
+ * rounding only. 0: not known, audit.py decides. size: of the mechanism, m.
+ */
+static int begins_at_start(const double *y, const double *start, const Parameters *p, double size)
+{
+    double guess[AT_LEAST_ONE(N_GUESS)], set[AT_LEAST_ONE(N_SET + N_ECCENTRICITIES)],
+        rates[AT_LEAST_ONE(N_RATES + N_ECCENTRICITIES)], fastest = 0.0;
+    start_values(p, guess, set, rates);
+    for (int i = 0; i < N_SET; i++) {
+        const int k = set_coordinate[i], is_angle = k % 3 == 2;
+        const double difference = fabs(start[k] - set[i]);
+        const double n_turns = is_angle ? rint(difference / (2.0 * PI)) : 0.0;
+        if (!(fabs(difference - n_turns * 2.0 * PI) * (is_angle ? size : 1.0) <= START_TOL * size))
+            return 0;
+    }
+    for (int k = N_Q; k < 2 * N_Q; k++)
+        fastest = max_of(fastest, fabs(start[k]));
+    const double largest = max_of(size, 1.0);
+    const double far = START_TOL * size / largest, fast = START_RATES_TOL * min_of(size, 1.0) * fastest / largest;
+    for (int k = 0; k < 2 * N_Q; k++)
+        if (!(fabs(y[k] - start[k]) <= (k < N_Q ? far : fast)))
+            return 0;
+    return 1;
+}
+
+/* Results of gudgeon_evaluate() at one sample, without the energy. */
+typedef struct {
+    double a[N_Q], lambda[AT_LEAST_ONE(N_ROWS)], reactions[N_REACTION_COLUMNS * AT_LEAST_ONE(N_REACTIONS)],
+        torques[AT_LEAST_ONE(N_DRIVES)], clearance[N_CLEARANCE_COLUMNS * AT_LEAST_ONE(N_CLEARANCES)],
+        series[AT_LEAST_ONE(N_SERIES)], friction[N_FRICTION_COLUMNS * AT_LEAST_ONE(N_FRICTIONS)], power[N_WORK],
+        drift[N_DRIFT];
+} SampleResults;
+
+/*
+ * Return whether all n samples y (rows of N_S) of a run can be evaluated at the times t, and pass the audit; 0: not
+ * known, or they do not. energies (n, N_ENERGY, output) are for the energy balance, which the caller checks. The other
+ * arguments are those of the audit; if `limits` is NULL, the samples are evaluated only.
+ * audited: result of the audit of steps (N_CHECKS).
+ * start (2 N_Q): state with which the run began; NULL: the first sample is not compared with it.
+ * drawn: n_drawn indices of the samples whose errors of gudgeon_audit_samples() must not exceed `limits` (4).
+ * With a contact force at any sample, the result is 0.
+ */
+int gudgeon_check_samples(long n, const double *t, const double *y, const double *discrete, const double *parameters,
+    double *energies, const double *audited, const double *limits, double size, const double *start, long n_drawn,
+    const long *drawn)
+{
+    for (int k = 0; limits && k < N_CHECKS; k++)
+        if (!(audited[k] <= AUDIT_FAILS))
+            return 0;
+    for (long i = 0; i < n; i++) {
+        SampleResults x = {0};
+        double *energy = energies + N_ENERGY * i;
+        const double *state = y + i * N_S;
+        long failed;
+        if (gudgeon_evaluate(1, t + i, state, state + N_Q, discrete + i * N_DISCRETE, parameters, x.a, x.lambda,
+                x.reactions, x.torques, x.clearance, x.series, x.friction, energy, x.power, x.drift, &failed))
+            return 0;
+        if (!limits)
+            continue;
+        for (int k = 0; k < N_CLEARANCES; k++) {
+            const double *column = x.clearance + N_CLEARANCE_COLUMNS * k;
+            if (column[CLEARANCE_Fx] != 0.0 || column[CLEARANCE_Fy] != 0.0)
+                return 0;
+        }
+        if (!is_sum_finite((const double *)&x, sizeof x / sizeof(double)) || !is_sum_finite(energy, N_ENERGY))
+            return 0;
+    }
+    if (limits && start && !begins_at_start(y, start, (const Parameters *)parameters, size))
+        return 0;
+    for (long i = 0; limits && i < n_drawn; i++) {
+        const double *state = y + drawn[i] * N_S;
+        double errors[4];
+        gudgeon_audit_samples(1, t + drawn[i], state, state + N_Q, discrete + drawn[i] * N_DISCRETE, parameters, size,
+            errors);
+        for (int k = 0; k < 4; k++)
+            if (!(errors[k] <= limits[k]))
+                return 0;
+    }
+    return 1;
+}

@@ -17,6 +17,9 @@ void gudgeon_nu(double t, const double *q, const double *p, double *nu);
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_values);
 void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates);
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
+#if INTEGRATES
+int gudgeon_has_equal_start(const double *p, const double *other);
+#endif
 int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v);
 int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy);
 double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p);
@@ -25,6 +28,9 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     double *series, double *friction, double *energy, double *power, double *drift, long *failed_sample);
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *relative_errors);
+int gudgeon_check_samples(long n, const double *t, const double *y, const double *discrete, const double *parameters,
+    double *energies, const double *audited, const double *limits, double size, const double *start, long n_drawn,
+    const long *drawn);
 int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, const double *q, const double *v,
     const double *discrete, const double *parameters, long n_parameters, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,

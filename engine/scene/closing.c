@@ -125,8 +125,8 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
     if (!workspace->all.n)
         select_leading_equations(workspace, &workspace->all, N_ALL_ROWS + N_SET, set_coordinate);
     double norm = linearize_start_equations(workspace, t, q, p);
-    if (norm < rounding)
-        return factorize_equations(workspace, &workspace->all);
+    if (norm < rounding) /* also at a double root, where equations depend on each other */
+        return 0;
     if (compute_least_squares_step(workspace))
         return 1;
     for (int k = 0; k < N_Q; k++)

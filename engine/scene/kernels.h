@@ -31,6 +31,9 @@ void jacobian(double t, const double *q, const Parameters *p, double *phi_q);
 void velocity_rhs(double t, const double *q, const Parameters *p, double *nu);
 void acceleration_rhs(double t, const double *q, const double *v, const Parameters *p, double *gamma_rows);
 void start_values(const Parameters *p, double *guess, double *set, double *rates);
+#ifndef N_ECCENTRICITIES /* starts that set eccentricities e: Phi = -e is stored after `set`, its rate after `rates` */
+#define N_ECCENTRICITIES 0
+#endif
 #if INTEGRATES
 int has_equal_start_parameters(const Parameters *p, const Parameters *other);
 #endif

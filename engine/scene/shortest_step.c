@@ -6,8 +6,7 @@
 #include "../run/cancellation.h"
 #include "calls.h"
 
-#ifndef N_ECCENTRICITIES /* starts that set eccentricities e: Phi = -e is stored after `set`, its rate after `rates` */
-#define N_ECCENTRICITIES 0
+#if !N_ECCENTRICITIES
 static const int eccentricity_row[] = {0};
 #endif
 

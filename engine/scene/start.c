@@ -263,6 +263,17 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
     return compute_start(t, parameters, size, q, v, residual, &no_cancellation);
 }
 
+#if INTEGRATES
+/*
+ * Return whether the starts of two sets of parameters are equal: all parameters are, that the assembly reads. The sizes
+ * of the mechanism are not compared.
+ */
+int gudgeon_has_equal_start(const double *p, const double *other)
+{
+    return has_equal_start_parameters((const Parameters *)p, (const Parameters *)other);
+}
+#endif
+
 /*
  * Continue a closed start to other parameters. q: coordinates of the old start, replaced by Newton's method; v
  * (output): velocities there. size: of the mechanism, m. Equations may depend on each other. Return 0; 1 if q does not

@@ -8,9 +8,11 @@ from collections.abc import Mapping, Sequence
 from contextvars import ContextVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 
 MIN_DIFFERENCE = 0.2  # rad, or relative to the size: smallest difference of assemblies that a guess distinguishes
@@ -30,23 +32,41 @@ def find_guess_deviations(linkage: Linkage, p: Array, q: Array) -> dict[str, flo
     size (of a coordinate's guess, if larger) for lengths, are returned.
     """
     source, differences = linkage.source, dict[str, float]()
-    guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
-    size = compute_mechanism_size(linkage, p)
-    for name, expected in guess.items():
-        if name in source.coordinates:
-            difference = float(q[source.coordinates.index(name)]) - expected
-            is_angle = name.endswith(".theta")
-            difference = (difference + np.pi) % (2.0 * np.pi) - np.pi if is_angle else difference
-            if abs(difference) > (MAX_ANGLE_DEVIATION if is_angle else MIN_DIFFERENCE * max(size, abs(expected))):
-                differences[name] = difference
+    values, size = linkage.start_values(p)[0], compute_mechanism_size(linkage, p)
+    guessed, coordinates, angle_limits, is_length = _list_guessed_coordinates(source)
+    expected = values.take(guessed)
+    difference = q.take(coordinates) - expected
+    if (
+        b"\0" in (np.abs(difference) <= angle_limits + MIN_DIFFERENCE * size * is_length).tobytes()
+    ):  # quicker than all()
+        turned = np.where(is_length, difference, (difference + np.pi) % (2.0 * np.pi) - np.pi)
+        limits = angle_limits + MIN_DIFFERENCE * np.maximum(size, np.abs(expected)) * is_length
+        for k in np.flatnonzero(np.abs(turned) > limits).tolist():
+            differences[source.coordinates[coordinates[k]]] = float(turned[k])
+    if len(guessed) == len(values):
+        return differences
+    guess = dict(zip(source.start_guess, values.tolist(), strict=True))
     for point in source.points:
         if f"{point.name}.x" in guess:
             expected_position = (guess[f"{point.name}.x"], guess[f"{point.name}.y"])
-            if (
-                difference := float(np.linalg.norm(compute_point_position(source, p, q, point) - expected_position))
-            ) > MIN_DIFFERENCE * size:
-                differences[point.name] = difference
+            distance = float(np.linalg.norm(compute_point_position(source, p, q, point) - expected_position))
+            if distance > MIN_DIFFERENCE * size:
+                differences[point.name] = distance
     return differences
+
+
+@cache_by_values
+def _list_guessed_coordinates(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.intp], Array, Array]:
+    """Return arrays on the guesses of coordinates: their indices in source.start_guess and in q; the largest deviation
+    of angles, 0 for lengths; and 1 for lengths, 0 for angles.
+    """
+    names = [name for name in source.start_guess if name in source.coordinates]
+    of_guesses, of_q = (
+        np.array([everything.index(name) for name in names], np.intp)
+        for everything in (source.start_guess, source.coordinates)
+    )
+    is_length = np.array([float(not name.endswith(".theta")) for name in names])
+    return of_guesses, of_q, MAX_ANGLE_DEVIATION * (1.0 - is_length), is_length
 
 
 def warn_guess_deviations(source: KernelSource, differences: Mapping[str, float]) -> None:

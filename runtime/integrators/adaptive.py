@@ -27,7 +27,6 @@ polynomial, whose accelerations do not amplify errors of velocities.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -42,8 +41,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import read_parameter_value
 from gudgeon.model.sizes import (
     compute_mechanism_sizes,
-    compute_size_of_values,
-    find_size_indices,
+    compute_size,
     select_lengths,
     spread_lengths,
 )
@@ -160,6 +158,11 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     rtol, for the works. With a film, tolerances of velocities are smaller. `p` (..., n_parameters + n_derived) holds
     the parameter values of one run, or of several.
     """
+    return _compute_tolerances_and_sizes(compiled, p, rtol)[:2]
+
+
+def _compute_tolerances_and_sizes(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Return what `compute_tolerances` returns, and the mechanism sizes S (...,) in m."""
     source = compiled.source
     with np.errstate(over="ignore", invalid="ignore"):  # runs with such values fail later, one by one
         lengths, sizes = compute_error_lengths(compiled, p)
@@ -170,7 +173,7 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     tolerances = np.concatenate([of_q, of_speed], axis=-1)
     if not tolerances.shape[-1]:
         tolerances = np.full((*lengths.shape, 1), rtol)
-    return tolerances, np.stack([lengths, ratio], axis=-1)
+    return tolerances, np.stack([lengths, ratio], axis=-1), sizes
 
 
 def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: float) -> tuple[Any, Any, Any]:
@@ -197,37 +200,32 @@ def compute_tolerances_of_runs(compiled: CompiledModel, p: Array, rtol: float) -
     return _compute_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
 
 
-def _compute_tolerances_and_sizes(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
-    """Return what `compute_tolerances_of_runs` returns, for several runs, without a cache."""
-    return *compute_tolerances(compiled, p, rtol), compute_mechanism_sizes(compiled.source, p)
-
-
 @cache_by_values
 def _compute_tolerances_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
     """Return what `compute_tolerances_of_runs` returns for one run: tolerances (1, 2 n_x), (L, L/S) (1, 2), S (1,).
 
     `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
     """
-    values = spread_lengths(compiled.source, lengths).tolist()
-    scale, least, size = compute_tolerances_of_values(compiled.source, values, rtol)
+    p = spread_lengths(compiled.source, lengths)
+    size = compute_size(compiled.source, p)
+    scale, least = compute_tolerances_of_values(compiled.source, p, size, rtol)
     return scale[None], np.array([least]), np.array([size])
 
 
 def compute_tolerances_of_values(
-    source: KernelSource, values: Sequence[float], rtol: float
-) -> tuple[Array, tuple[float, float], float]:
-    """Return error tolerances (2 n_x,), L and L/S, and S (m) of one run, from its parameter values (n_p,).
+    source: KernelSource, p: Array, size: float, rtol: float
+) -> tuple[Array, tuple[float, float]]:
+    """Return error tolerances (2 n_x,), L and L/S of one run, from its parameter values p (n_p,) and S, `size` (m).
 
     See `compute_tolerances`. The numbers equal those of `compute_tolerances_of_runs` bit for bit; plain floats save
     time. Without integrated coordinates the only tolerance is rtol.
     """
-    size = compute_size_of_values(find_size_indices(source), values)
-    length = min((c for c in (values[joint.clearance] for joint in source.clearances) if c > 0.0), default=size)
+    length = min((c for c in (p.item(joint.clearance) for joint in source.clearances) if c > 0.0), default=size)
     is_angle = find_integrated_angles(source)
     of_angles, of_lengths, of_speeds = compute_error_scales(source, length, size, rtol)
     if not len(is_angle):
-        return np.array([rtol]), (length, length / size), size
+        return np.array([rtol]), (length, length / size)
     scale, n = np.empty(2 * len(is_angle)), len(is_angle)
     scale[:n], scale[n:] = of_lengths, of_speeds
     scale[:n][is_angle] = of_angles
-    return scale, (length, length / size), size
+    return scale, (length, length / size)

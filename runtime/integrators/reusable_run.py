@@ -17,7 +17,12 @@ from gudgeon.integrators.stored import Contacts
 from gudgeon.integrators.times import Times
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_columns import ParameterColumns
-from gudgeon.model.sizes import is_clearance_unresolved
+from gudgeon.model.sizes import (
+    compute_size_of_values,
+    find_size_indices,
+    find_size_parameters,
+    is_clearance_unresolved,
+)
 from gudgeon.waiting.cancellation import CancellationPoll
 
 N_ROWS = 2  # the current run, and the last one, whose start is copied if the parameters of the start are equal
@@ -51,6 +56,7 @@ class ReusableRun(Runs):
         self.struct.is_stop_requested, self.struct.context, self.struct.poll_interval = self._poll.c_arguments
         self._begun_row, self._has_guessed_points = 0, any(x.count(".") > 1 for x in columns.source.start_guess)
         self._tolerance_keys: list[bytes] = [b""] * N_ROWS
+        self._size, self._size_key, self._size_parameters = 0.0, b"none", find_size_parameters(columns.source)
         self._phase, self._done, self._checked, self._status = (
             self.arrays[name] for name in ("phase", "done", "checked", "status")
         )
@@ -71,10 +77,13 @@ class ReusableRun(Runs):
             return True
         self._tolerance_keys[k] = b""
         source, x, p = self.compiled.source, self.arrays, self.columns.p[k]
-        x["scale"][k], x["min_size"][k], size = adaptive.compute_tolerances_of_values(source, p.tolist(), self.rtol)
-        if is_clearance_unresolved(source, p, size):
+        size_key = p.take(self._size_parameters).tobytes()
+        if size_key != self._size_key:
+            self._size, self._size_key = compute_size_of_values(find_size_indices(source), p.tolist()), size_key
+        if is_clearance_unresolved(source, p, self._size):
             return False
-        x["size"][k] = size
+        x["scale"][k], x["min_size"][k] = adaptive.compute_tolerances_of_values(source, p, self._size, self.rtol)
+        x["size"][k] = self._size
         self._tolerance_keys[k] = key
         return True
 

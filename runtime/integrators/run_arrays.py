@@ -7,6 +7,7 @@ use. They are small, and most of the time of a short run would be that of their 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -85,6 +86,11 @@ class SingleRunArrays(dict[str, NDArray[Any]]):
         offset, kind, shape = self._layout.fields[name]
         self[name] = view = np.ndarray(shape, kind, self._block, offset)
         return view
+
+    def find_pointers(self, ffi: Any, names: Iterable[str]) -> list[Any]:
+        """Return C pointers to the arrays `names` of doubles, which are valid as long as this object exists."""
+        first, fields = ffi.cast("double *", make_pointer(ffi, self._block, "void *")), self._layout.fields
+        return [first + fields[name][0] // 8 for name in names]
 
     def __reduce__(self) -> Any:
         """Return the arrays as a dictionary, for pickling."""

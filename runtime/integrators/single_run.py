@@ -20,6 +20,7 @@ from gudgeon.integrators.steps import StepLog
 from gudgeon.integrators.stored import Contacts
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.model.sizes import select_lengths
 from gudgeon.waiting.cancellation import CancellationPoll
 
 MAX_REUSED_SAMPLES = 256  # largest number of samples of a run whose arrays are reused
@@ -59,7 +60,7 @@ class SingleRun(Runs):
         if compiled.source.clearances:
             self.allocate_envelope()
         self._problem: Problem | None = None
-        self._head = self.arrays.copy_head()
+        self._head, self._lengths = self.arrays.copy_head(), b""
         self.begin_problem(problem)
 
     def begin_problem(self, problem: Problem) -> None:
@@ -71,15 +72,18 @@ class SingleRun(Runs):
         compiled, x, n = self.compiled, self.arrays, self.compiled.n
         assert isinstance(x, SingleRunArrays)
         x.reset_head(self._head)
-        x["t"][:], x["step"][0], x["p"][0] = problem.t, problem.step, problem.p
-        is_given = problem.method == "rk4" or problem.p_motion is None
-        x["p_motion"][0] = problem.p if is_given else problem.p_motion
-        x["t_last"][0] = problem.t[0]
-        x["scale"][:], x["min_size"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
-            compiled, problem.p[None], self.rtol
-        )
+        lengths = select_lengths(compiled.source, problem.p).tobytes()
+        if lengths != self._lengths:  # else the head contains the tolerances
+            x["scale"][:], x["min_size"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
+                compiled, problem.p[None], self.rtol
+            )
+            x["started"][0] = 1
+            self._head, self._lengths = x.copy_head(), lengths
+        x["t"][:] = t = problem.t
+        x["step"][0], x["t_last"][0], x["p"][0] = problem.step, t[0], problem.p
+        x["p_motion"][0] = problem.p if problem.method == "rk4" or problem.p_motion is None else problem.p_motion
         start = x["start"][0]
-        start[:n], start[n:], x["started"][0] = problem.q, problem.v, 1
+        start[:n], start[n:] = problem.q, problem.v
         if compiled.n_memory:
             x["initial_discrete_states"][0] = problem.memory
         if problem.state is not None and len(problem.state):

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.audit import Finding
 from gudgeon.contract.boundary import (
-    AUDIT_FAILS,
     COUNT_NAMES,
     ENDED,
     IMPACT_COLUMN_NAMES,
@@ -338,43 +337,29 @@ class StoredRuns:
     def build_trajectory(self, i: int) -> Trajectory:
         """Return run i as a Trajectory: copies of its rows, or views if it is the only run without reused arrays.
 
-        `stopped` of an interrupted run is None.
+        Arrays of a single run are made at their first use. `stopped` of an interrupted run is None.
         """
-        x, n, joints, driven = (
-            self.arrays,
-            self.compiled.n,
-            len(self.compiled.source.clearances),
-            i in self.python_lists,
-        )
+        x, driven = self.arrays, i in self.python_lists
         kept = x.copy_block() if self.is_reused and isinstance(x, SingleRunArrays) else x
-        (t, y, memory, state), a = self._get_samples(i, kept), self.get_accelerations(i)
-        error, is_stopped = self.failures.get(i), x["status"].item(i) == STOPPED or (self.n == 1 and self.interrupted)
-        samples = {
-            "t": t,
-            "q": y[:, :n],
-            "v": y[:, n : 2 * n],
-            "a": a,
-            "memory": memory,
-            "state": state,
-            "work": y[:, 2 * n :],
-            "peaks": kept["peaks"][i, :joints],
-        }
-        if self.n > 1:
-            samples = {name: None if array is None else array.copy() for name, array in samples.items()}
-        values: dict[str, Any] = samples | {
-            "impacts": self.get_contacts(i),
-            "counts": self.get_counts(i),
+        a, error, status = self.get_accelerations(i), self.failures.get(i), x["status"].item(i)
+        is_stopped = status == STOPPED or (self.n == 1 and self.interrupted)
+        values: dict[str, Any] = {
+            "t": self.get_reached_times(i),
+            "a": a.copy() if a is not None and self.n > 1 else a,
             "interrupted": is_stopped,
             "stopped": error if isinstance(error, SolverError) and not is_stopped else None,
             "seconds": x["seconds"].item(i),
             "change_points": self._get_change_points(i),
-            "size": math.nan if a is not None else x["size"].item(i),
-            "may_fail_audit": driven or b"\0" in (x["audit_values"][i] <= AUDIT_FAILS).tobytes(),
+            "block": kept if isinstance(kept, SingleRunArrays) and a is None and not driven else None,
         }
         envelope = x["envelope"][i, : x["n_envelope_rows"].item(i)].copy() if "envelope" in x else None
         events = self._get_events(i) if driven or i in self.events else None
-        later = _TrajectoryParts(self.compiled, kept, i, driven, a is None, events, envelope)
+        impacts = self.get_contacts(i) if driven or len(self.contacts) else None
+        k = 0 if self.n == 1 else x["sample_block"].item(i)
+        samples = kept, i, k, len(values["t"])
+        later = _TrajectoryParts(self.compiled, samples, driven, a is None, impacts, events, envelope)
         if self.n > 1:
+            later.copy_rows()
             return Trajectory(**values, **{name: getattr(later, name)() for name in later.fields})
         return make_with_deferred_fields(Trajectory, values, later)
 
@@ -386,27 +371,74 @@ class StoredRuns:
 
 
 class _TrajectoryParts:
-    """Build fields of run i's Trajectory at their first access, from `arrays` that do not change later.
+    """Build fields of a run's Trajectory at their first access, from arrays that do not change later.
 
-    `events`: user events, and the times from which events are not numbers; None: there are none. `envelope`: rows as C
-    writes them.
+    `samples`: the arrays, the run's row, its row of samples and their number N. `impacts`, `events`: contacts; user
+    events, and the times from which events are not numbers; None: there are none. `envelope`: rows as C writes them.
     """
 
-    fields: tuple[str, ...] = ("events", "event_states", "undefined_events", "trace", "audit")
+    fields: tuple[str, ...] = (
+        *("q", "v", "memory", "state", "work", "peaks", "counts", "impacts"),
+        *("events", "event_states", "undefined_events", "trace", "audit"),
+    )
 
     def __init__(
         self,
         compiled: CompiledModel,
-        arrays: dict[str, NDArray[Any]],
-        i: int,
+        samples: tuple[dict[str, NDArray[Any]], int, int, int],
         is_driven: bool,
         has_event_states: bool,
+        impacts: NDArray[Any] | None,
         events: tuple[NDArray[Any], NDArray[Any]] | None,
         envelope: Array | None,
     ) -> None:
-        self.compiled, self.arrays, self.i, self.is_driven = compiled, arrays, i, is_driven
-        self.has_event_states = has_event_states
-        self.found, self.envelope = events, envelope
+        self.compiled, self.is_driven, self.has_event_states = compiled, is_driven, has_event_states
+        self.arrays, self.i, self.k, self.n_samples = samples
+        self.contacts, self.found, self.envelope = impacts, events, envelope
+
+    def copy_rows(self) -> None:
+        """Copy the rows of the run, so that its fields are not views of the arrays of a batch."""
+        x, k, i = self.arrays, self.k, self.i
+        self.arrays = {name: x[name][k : k + 1, : self.n_samples].copy() for name in ("y", "latched", "state")}
+        names = "peaks", "counts", "residuals", "audited", "audited_t", "audited_where"
+        self.arrays |= {name: x[name][i : i + 1].copy() for name in names}
+        self.k = self.i = 0
+
+    def _view_motion(self, first: int, end: int) -> Array:
+        """Return columns of the samples: q, q̇ (n each) and works."""
+        return self.arrays["y"][self.k, : self.n_samples, first:end]
+
+    def q(self) -> Array:
+        """Return the coordinates (N, n)."""
+        return self._view_motion(0, self.compiled.n)
+
+    def v(self) -> Array:
+        """Return the velocities (N, n)."""
+        return self._view_motion(self.compiled.n, 2 * self.compiled.n)
+
+    def work(self) -> Array:
+        """Return the works (N, 3)."""
+        return self._view_motion(2 * self.compiled.n, 2 * self.compiled.n + N_WORK)
+
+    def memory(self) -> Array:
+        """Return the discrete states (N, n_memory)."""
+        return self.arrays["discrete_states"][self.k, : self.n_samples, : self.compiled.n_memory]
+
+    def state(self) -> NDArray[Any]:
+        """Return the contact codes (N, n_clearances)."""
+        return self.arrays["state"][self.k, : self.n_samples, : len(self.compiled.source.clearances)]
+
+    def peaks(self) -> Array:
+        """Return the peaks (n_clearances, 3)."""
+        return self.arrays["peaks"][self.i, : len(self.compiled.source.clearances)]
+
+    def counts(self) -> Counts:
+        """Return the counts, sums and maxima over the steps."""
+        return convert_counts(self.arrays["counts"][self.i], self.arrays["residuals"][self.i])
+
+    def impacts(self) -> NDArray[Any]:
+        """Return the contacts (IMPACT_DTYPE)."""
+        return np.empty(0, IMPACT_DTYPE) if self.contacts is None else self.contacts
 
     def _get_events(self, k: int) -> NDArray[Any]:
         """Return the events (k = 0), or those that are not numbers (k = 1)."""

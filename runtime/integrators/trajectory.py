@@ -27,6 +27,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.deferred_fields import defer_fields
 
 if TYPE_CHECKING:
+    from gudgeon.integrators.run_arrays import SingleRunArrays
     from gudgeon.results.state import State
 
 IMPACT_DTYPE = np.dtype(
@@ -79,7 +80,7 @@ def join_contacts(lists: Iterable[NDArray[Any]]) -> NDArray[Any]:
     return np.frombuffer(bytearray().join(lists), IMPACT_DTYPE)  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)  # not frozen: setting the fields of a frozen one takes longer
 class Problem:
     """Define a run: a scene with parameter values, a start, and the times of the samples (the first is the start)."""
 
@@ -101,8 +102,6 @@ class Problem:
     audit: int = 1  # level of the audit (contract/audit.py)
     resumed_state: State | None = None  # state that the run resumes from
     observer: StepCallback | None = None  # observer of all steps
-    # (2, n) differences of q and v of the first sample from the start up to which its audit passes; None: not known
-    allowed_start_error: Array | None = None
     poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (cancellation.py)
 
 
@@ -148,7 +147,10 @@ def convert_counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict
     return {name: counts_by_name[name] for name in STORED_COUNTS}
 
 
-@defer_fields("audit", "trace", "events", "event_states", "undefined_events")
+@defer_fields(
+    *("q", "v", "memory", "state", "work", "impacts", "peaks", "counts"),
+    *("audit", "trace", "events", "event_states", "undefined_events"),
+)
 @dataclass(frozen=True)
 class Trajectory:
     """Hold the N samples of a run or, when it was stopped or interrupted, those that were reached.
@@ -177,8 +179,7 @@ class Trajectory:
     # EVENT_DTYPE: times from which on an event is not a number
     undefined_events: NDArray[Any] = field(default_factory=make_empty_events)
     change_points: tuple[int, float] = NO_CHANGE_POINTS  # samples at or near one, and the time of the first (s)
-    size: float = math.nan  # m, of the mechanism; NaN: not known
-    may_fail_audit: bool = True  # False: `audit` has no value with which a run fails
+    block: SingleRunArrays | None = None  # of a single run in C: the arrays of which the samples are views
 
 
 @dataclass(frozen=True, eq=False)

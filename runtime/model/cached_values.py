@@ -13,7 +13,8 @@ import numpy as np
 from gudgeon.contract.kernel_source import CACHED_VALUES
 
 Value = TypeVar("Value")
-MAX_ENTRIES = 256  # of one scene, of all functions together; the oldest is dropped first
+# of one scene, of all functions together; the oldest is dropped first, but those that depend on the scene alone stay
+MAX_ENTRIES = 256
 MAX_BYTES = 1 << 16  # of an array in a key: calls with larger arrays are not cached
 _LOCK = Lock()
 _EMPTY: dict[Any, Any] = {}  # the cache of an owner without one; as a value: not cached
@@ -36,6 +37,23 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
     with values that cannot be compared by a hash are not cached; nor are exceptions. Results are shared between calls:
     callers must not change them.
     """
+    return _cache_by_key(function, None)
+
+
+def cache_selected_values(
+    select: Callable[..., tuple[Any, ...]],
+) -> Callable[[Callable[..., Value]], Callable[..., Value]]:
+    """Return a decorator as `cache_by_values` for functions that depend on a part of their arguments only.
+
+    `select` returns that part, from the same arguments: the values that are compared.
+    """
+    return lambda function: _cache_by_key(function, select)
+
+
+def _cache_by_key(
+    function: Callable[..., Value], select: Callable[..., tuple[Any, ...]] | None
+) -> Callable[..., Value]:
+    """Cache the results of a function by the values of its arguments, or of what `select` returns for them."""
     name = f"{function.__module__}.{function.__name__}"
 
     @wraps(function)
@@ -48,7 +66,7 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
         entry: Any = name
         if arguments:
             key: list[Any] = [name]
-            for argument in arguments:
+            for argument in arguments if select is None else select(owner, *arguments):
                 if type(argument) is np.ndarray:
                     if argument.nbytes > MAX_BYTES:
                         return function(owner, *arguments)
@@ -66,8 +84,8 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
         value = function(owner, *arguments)
         with _LOCK:
             cache = owner.__dict__.setdefault(CACHED_VALUES, {})
-            while len(cache) >= MAX_ENTRIES:
-                del cache[next(iter(cache))]
+            while len(cache) >= MAX_ENTRIES and (oldest := next((x for x in cache if type(x) is tuple), None)):
+                del cache[oldest]
             cache[entry] = value
         return value
 

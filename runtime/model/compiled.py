@@ -158,21 +158,28 @@ class CompiledModel:
     ) -> Array:
         """Return the values of n runs, (n, n_parameters + n_derived), from parameters and mask (n, n_parameters).
 
-        Parameters with an index in `zero_indices` are 0. RUNS_PER_CALL runs are computed at a time, one by one if a
-        choice is given.
+        Parameters with an index in `zero_indices` are 0. RUNS_PER_CALL runs are computed at a time.
         """
-        n_parameters, p = len(self.source.slots), np.empty((len(given), self.n_p))
-        has_choices = bool(self._choices) and is_given[:, list(self._choices)].any()
+        shape, p = (None, len(self.source.slots)), np.empty((len(given), self.n_p))
         for rows in (slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)):
-            values = np.array(as_c_array(given[rows], "given", (None, n_parameters)))
-            mask = np.array(as_c_array(is_given[rows], "is_given", (None, n_parameters), dtype=FLAG))
-            values[:, zero_indices], mask[:, zero_indices] = 0.0, True
-            if has_choices:
-                p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
-                continue
-            arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._get_output_pointer(p[rows])
-            self.lib.gudgeon_prepare_runs(len(values), n_parameters, *arguments)
+            values = as_c_array(given[rows], "given", shape, always_copy=True)
+            mask = as_c_array(is_given[rows], "is_given", shape, dtype=FLAG, always_copy=True)
+            if zero_indices:
+                values[:, zero_indices], mask[:, zero_indices] = 0.0, True
+            self.prepare_rows(values, mask, p[rows])
         return p
+
+    def prepare_rows(self, values: Array, mask: NDArray[np.uint8], p: Array) -> None:
+        """Compute values p (n, n_parameters + n_derived) from arrays (n, n_parameters) in the layout of C, in place.
+
+        Runs are computed one by one if a choice is given.
+        """
+        if self._choices and mask[:, list(self._choices)].any():
+            p[...] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
+            return
+        pointer = self.pointer
+        arguments = pointer(values), pointer(mask, "unsigned char *"), pointer(p, is_written=True)
+        self.lib.gudgeon_prepare_runs(len(values), values.shape[1], *arguments)
 
     def mass(self, p: ArrayLike) -> Array:
         """Return the diagonal of the mass matrix M, (n,)."""
@@ -225,23 +232,22 @@ class CompiledModel:
         Each is an array (number of coordinates,) in the order of source.start_guess, start_set and start_rates.
         """
         s, n_held_open = self.source, len(self.source.start_apart)
-        sizes = len(s.start_guess), len(s.start_set) + n_held_open, len(s.start_rates) + n_held_open
-        guess_values, set_values, rate_values = (np.zeros(max(size, 1)) for size in sizes)
-        self.lib.gudgeon_start_values(
-            self._get_parameter_pointer(p),
-            *(self._get_output_pointer(array) for array in (guess_values, set_values, rate_values)),
-        )
-        return guess_values[: sizes[0]], set_values[: sizes[1]], rate_values[: sizes[2]]
+        n_guess, n_set = len(s.start_guess), len(s.start_guess) + len(s.start_set) + n_held_open
+        values = np.zeros(n_set + len(s.start_rates) + n_held_open + 1)
+        first = self._get_output_pointer(values)
+        self.lib.gudgeon_start_values(self._get_parameter_pointer(p), first, first + n_guess, first + n_set)
+        return values[:n_guess], values[n_guess:n_set], values[n_set:-1]
 
     def close_linkage(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
         """Return the start's q and q̇ (n,) and max |Φ| by Newton's method in C; None if it does not converge.
 
         `size` of the mechanism (m) scales lengths against angles. runtime/assembly/start.py treats the other cases.
         """
-        q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
-        arguments = check_time(t), self._get_parameter_pointer(p), check_number(size, "size")
-        status = self.lib.gudgeon_start(*arguments, *(self._get_output_pointer(array) for array in (q, v, residual)))
-        return None if status else (q, v, float(residual[0]))
+        n, values = self.n, np.empty(2 * self.n + 1)
+        arguments, q = (check_time(t), self._get_parameter_pointer(p), size), self._get_output_pointer(values)
+        if self.lib.gudgeon_start(*arguments, q, q + n, q + 2 * n):
+            return None
+        return values[:n], values[n : 2 * n], values.item(2 * n)
 
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None) -> Array:
         """Return (q̇, q̈, powers of drives, forces and joints with play), (2n + 3,), at y = (q, q̇), (2n,) or longer.

@@ -247,10 +247,7 @@ def parse_plain_number(text: str) -> float | None:
 
 
 def insert_space_before_unit(text: str) -> str:
-    """Return the text with a space before the unit of a number: "0.5mm" becomes "0.5 mm".
-
-    Other texts are returned without the spaces around them.
-    """
+    """Return the text with a space before the unit of a number ("0.5mm" becomes "0.5 mm"), without spaces around it."""
     match = _NUMBER_WITH_UNIT.fullmatch(text.strip())
     return f"{match[1]} {match[2]}" if match else text.strip()
 
@@ -264,28 +261,28 @@ def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str
     return prepare_run_values(compiled, given_values, is_given)[0], given_values, is_given
 
 
-def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> tuple[Array, Array]:
-    """Return the checked values p for given parameters and mask, and those without Baumgarte gains, (n_p,) each.
+def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
+    """Return what `compute_run_values` returns, cached for equal values: a copy."""
+    return _prepare_run(compiled, given_values, is_given).copy()
+
+
+def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
+    """Return the checked values p for given parameters and mask, and those without Baumgarte gains, (2, n_p).
 
     The second are for methods that project; see `prepare_without_baumgarte`. Raises BadValueError.
     """
-    p, p_motion = _prepare_run(compiled, given_values, is_given).copy()
-    return p, p_motion
-
-
-@cache_by_values
-def _prepare_run(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
-    """Return the checked values p of a run and those without Baumgarte gains, (2, n_p), cached for equal values.
-
-    Callers must not change them. Raises BadValueError for values that violate a condition.
-    """
-    pairs, masks = np.array([given_values, given_values]), np.array([is_given, is_given], FLAG)
-    gain_indices = _find_gain_indices(compiled.source)
-    pairs[1, gain_indices], masks[1, gain_indices] = 0.0, True
-    values = compiled.prepare_parameters_of_runs(pairs, masks)
-    if not has_valid_values(compiled.source, values[0], is_given):
-        check_parameter_values(compiled.source, values[0], is_given)
+    source, shape = compiled.source, (2, len(given_values))
+    pair, masks, values = np.empty(shape), np.empty(shape, FLAG), np.empty((2, compiled.n_p))
+    pair[:], masks[:] = given_values, is_given
+    for k in _find_gain_indices(source):
+        pair[1, k], masks[1, k] = 0.0, 1
+    compiled.prepare_rows(pair, masks, values)
+    if not has_valid_values(source, values[0], is_given):
+        check_parameter_values(source, values[0], is_given)
     return values
+
+
+_prepare_run = cache_by_values(compute_run_values)  # callers must not change the values
 
 
 def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
@@ -298,8 +295,9 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
     return _prepare_run(compiled, given_values, is_given)[1].copy()
 
 
+@cache_by_values
 def _find_gain_indices(source: KernelSource) -> list[int]:
-    """Return the indices of the parameters that are Baumgarte gains."""
+    """Return the indices of the parameters that are Baumgarte gains; the list must not be changed."""
     return [source.slot_index[name] for name in GAINS if name in source.slot_index]
 
 

@@ -57,6 +57,12 @@ def find_length_indices(source: KernelSource) -> NDArray[np.intp]:
     return np.array(sorted(clearances | lengths | find_contour_parameters(source)), dtype=np.intp)
 
 
+@cache_by_values
+def find_size_parameters(source: KernelSource) -> NDArray[np.intp]:
+    """Return the indices into p of all values on which the size of the mechanism depends."""
+    return np.array(sorted({k for pair in find_size_indices(source) for k in pair if k >= 0}), dtype=np.intp)
+
+
 def select_lengths(source: KernelSource, p: Array) -> Array:
     """Return the values of one run on which the size and the clearances depend, for caches with them as keys."""
     return p.take(find_length_indices(source))
@@ -139,6 +145,8 @@ def find_unresolved_clearances(source: KernelSource, p: Array) -> Array:
 
     The eccentricity is a difference of coordinates, each of which is rounded to 2^-52 of its value.
     """
+    if not source.clearances:
+        return np.zeros((*p.shape[:-1], 0), bool)
     return np.asarray(
         compute_min_clearances(source, p) < MIN_RELATIVE_CLEARANCE * compute_mechanism_sizes(source, p)[..., np.newaxis]
     )

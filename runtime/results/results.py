@@ -44,7 +44,10 @@ if TYPE_CHECKING:
     from gudgeon.results.series import Series
 
 
-@defer_fields("accelerations", "diagnostics", "events", "event_states", "trace", "provenance")
+@defer_fields(
+    *("p", "t", "q", "v", "accelerations", "state", "memory", "work", "impacts", "diagnostics"),
+    *("events", "event_states", "trace", "provenance"),
+)
 @dataclass(eq=False)
 class Result(NotebookDisplay):
     """Result of one run with N samples: `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).

@@ -245,18 +245,6 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     yield Finding("start", worst, float(trajectory.t[0]), "")
 
 
-def compute_allowed_start_error(source: KernelSource, p: Array, q: Array, v: Array) -> Array:
-    """Return bounds (2, n) on the differences of q and v between the first sample and a start.
-
-    Within these bounds `_check_first_sample` passes; beyond them it may pass too. They are NaN if the start differs
-    from the file's `start.set` by more than START_TOL.
-    """
-    size = max(compute_size(source, p), 1e-300)
-    off = START_TOL if _compute_distance_from_given_start(source, p, q, size) <= START_TOL * size else np.nan
-    slower = START_RATES_TOL * min(size, 1.0) * np.abs(v).max(initial=0.0)
-    return np.repeat([[off * size], [slower]], len(q), axis=1) / max(size, 1.0)
-
-
 def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array, size: float) -> float:
     """Return the largest difference (m) between a start q (n,) and the file's `start.set`, whole turns left out.
 

@@ -8,10 +8,11 @@ coordinates of all bodies.
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,10 +22,11 @@ from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_number, check_text, raise_bad_value
 from gudgeon.language.text_output import format_count
 from gudgeon.model.arrays import CODE, FLOAT, as_c_array
+from gudgeon.model.cached_values import cache_selected_values
 from gudgeon.model.choices import format_parameter, make_choice_notes
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import set_contours
-from gudgeon.model.parameters import read_given_parameters
+from gudgeon.model.parameters import compute_run_values, read_given_parameters
 from gudgeon.results.results import State
 
 MAX_VIOLATION = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
@@ -194,6 +196,31 @@ def _list_changed_laws_and_tables(source: KernelSource, start: State) -> list[st
         return []
     kinds = {name: "law" for name, _ in source.laws} | {name: "table" for name, _ in source.tables}
     return [f"{kinds[name]} {name}" for name in kinds if keys_of_state.get(name) != present_keys[name]]
+
+
+class FileParameters(NamedTuple):
+    """Hold the parameters of a run that begins at the file's start; callers must not change the arrays."""
+
+    given: Array  # (n_slots,) values of the parameters that are given
+    is_given: Array  # (n_slots,) mask
+    p: Array  # (2, n_p) values of the run, and those without Baumgarte gains
+    notes: tuple[str, ...]
+
+
+def _select_floats(compiled: CompiledModel, parameters: Any) -> tuple[Any, ...]:
+    """Return the key of a dictionary of floats: names and bits of the values; of other arguments one without a hash."""
+    if parameters is None:
+        return ()
+    if type(parameters) is dict and {float}.issuperset(map(type, parameters.values())):
+        return tuple(parameters), array("d", parameters.values()).tobytes()
+    return ([],)
+
+
+@cache_selected_values(_select_floats)
+def read_file_parameters(compiled: CompiledModel, parameters: Mapping[str, Any] | None) -> FileParameters:
+    """Return the parameters of a run from the file's start, cached for equal floats. Raises InputError."""
+    given, is_given, notes = merge_parameters(compiled, None, parameters)
+    return FileParameters(given, is_given, compute_run_values(compiled, given, is_given), notes)
 
 
 def merge_parameters(

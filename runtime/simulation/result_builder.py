@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import cached_property
 from time import monotonic
 from typing import Any
 
@@ -37,7 +38,7 @@ from gudgeon.results.results import Result
 from gudgeon.results.samples import split_off_start
 from gudgeon.results.series import explain_missing_masses
 from gudgeon.simulation.audit import has_failed_finding
-from gudgeon.simulation.passing_audit import ShortRunSamples, is_short_run
+from gudgeon.simulation.passing_audit import passes_audit
 from gudgeon.simulation.sample_checks import CheckedSamples, check_samples
 from gudgeon.waiting.cancellation import POLL_INTERVAL_S
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
@@ -292,19 +293,17 @@ def build_result(
     """
     compiled, x, is_unsolvable = problem.compiled, _clear_undefined_works(problem.compiled, trajectory), False
     checked: CheckedSamples | None = None
-    evaluation: Evaluation | None = None
-    passing: ShortRunSamples | None = None  # they pass the audit, and are checked further on request
-    times: Array | None = None
     try:
-        times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p)
-        if is_short_run(problem, x):
-            short_run = ShortRunSamples(problem, x, times)
-            problem.poll_cancellation()
-            passing = short_run if short_run.passes_audit() else None
-            evaluation = None if passing else short_run.build_evaluation()
-        if not passing:
-            poll = _make_poll_function(problem, x.interrupted, is_time_limited)
-            checked = check_samples(problem, x, times, poll, evaluation)
+        is_left_limit_needed = compiled.may_drive_acceleration_jump
+        times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p) if is_left_limit_needed else x.t
+        problem.poll_cancellation()
+        if passes_audit(problem, x, times):
+            values = {"compiled": compiled, "source": compiled.source, "given": given, "is_given": is_given}
+            values |= {"stored": {}, "start_row": None, "begun": problem.resumed_state}
+            result = make_with_deferred_fields(Result, values, _PassingParts(problem, x, times))
+            return result if problem.start_is_sample else split_off_start(result)
+        poll = _make_poll_function(problem, x.interrupted, is_time_limited)
+        checked = check_samples(problem, x, times, poll)
     except SolverError:
         is_unsolvable = True
     except (
@@ -314,46 +313,39 @@ def build_result(
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
-    values: dict[str, Any] = {
+    is_nan = x.a is None and is_unsolvable
+    values = {
         "compiled": compiled,
         "source": compiled.source,
-        "p": problem.p if not passing else problem.p.copy(),
+        "p": problem.p.copy(),
         "given": given,
         "is_given": is_given,
+        "t": x.t,
+        "q": x.q,
+        "v": x.v,
+        "state": x.state,
+        "memory": x.memory,
+        "work": x.work,
         "impacts": x.impacts,
+        "accelerations": np.full_like(x.q, np.nan) if is_nan else checked.a if checked else x.a,
+        "diagnostics": _build_diagnostics(problem, x, checked),
         "stored": {},
         "start_row": None,
         "begun": problem.resumed_state,
     }
-    samples = {"t": x.t, "q": x.q, "v": x.v, "state": x.state, "memory": x.memory, "work": x.work}
-    if passing:  # the caller may change arrays of a result before its diagnostics are built
-        values |= {name: array.copy() for name, array in samples.items()}
-    else:
-        values |= samples
-        is_nan = x.a is None and is_unsolvable
-        values["accelerations"] = np.full_like(x.q, np.nan) if is_nan else checked.a if checked else x.a
-        values["diagnostics"] = _build_diagnostics(problem, x, checked)
-        if checked and checked.evaluation:
-            values["evaluation"] = checked.evaluation  # a cached property: not computed again
-    result = make_with_deferred_fields(Result, values, _ResultParts(problem, x, times, passing))
+    if checked and checked.evaluation:
+        values["evaluation"] = checked.evaluation  # a cached property: not computed again
+    result = make_with_deferred_fields(Result, values, _ResultParts(problem, x))
     return result if problem.start_is_sample else split_off_start(result)
 
 
 class _ResultParts:
-    """Build fields of a Result at their first access, for make_with_deferred_fields.
-
-    With `passing` samples, the evaluation and the diagnostics are built at their first access too.
-    """
+    """Build fields of a Result at their first access, for make_with_deferred_fields."""
 
     fields: tuple[str, ...] = ("events", "event_states", "trace", "provenance")
 
-    def __init__(
-        self, problem: Problem, trajectory: Trajectory, times: Array | None, passing: ShortRunSamples | None
-    ) -> None:
-        self.problem, self.trajectory, self.times, self.passing = problem, trajectory, times, passing
-        self.date = get_run_date()
-        if passing:
-            self.fields = _FIELDS_OF_PASSING
+    def __init__(self, problem: Problem, trajectory: Trajectory) -> None:
+        self.problem, self.trajectory, self.date = problem, trajectory, get_run_date()
 
     def events(self) -> NDArray[Any]:
         """Return the user events of the run."""
@@ -371,23 +363,54 @@ class _ResultParts:
         """Return the provenance of the run."""
         return collect_provenance(self.problem.compiled, self.date)
 
+
+_COPIED = ("t", "q", "v", "state", "memory", "work", "impacts")  # arrays of a trajectory
+
+
+class _PassingParts(_ResultParts):
+    """Build fields of a Result whose samples pass the audit: arrays are copies, as the caller may change them before
+    the diagnostics are built. `times` (N,): times (s) at which the samples are evaluated.
+    """
+
+    fields = (
+        *_ResultParts.fields,
+        *_COPIED,
+        *("p", "evaluation", "accelerations", "diagnostics"),
+    )
+
+    def __init__(self, problem: Problem, trajectory: Trajectory, times: Array) -> None:
+        super().__init__(problem, trajectory)
+        self.times = times
+
+    def p(self) -> Array:
+        """Return the parameter values."""
+        return self.problem.p.copy()
+
+    def __getattr__(self, name: str) -> Callable[[], Array]:
+        """Return the function that copies an array of the trajectory."""
+        if name not in _COPIED:
+            raise AttributeError(name)
+        copy: Callable[[], Array] = getattr(self.trajectory, name).copy
+        return copy
+
+    @cached_property
+    def _evaluation(self) -> Evaluation:
+        """Evaluate the samples once."""
+        x, problem = self.trajectory, self.problem
+        return problem.compiled.evaluate(self.times, x.q, x.v, x.memory, problem.p)
+
     def evaluation(self) -> Evaluation:
-        """Return the evaluation of samples that pass the audit, as a copy."""
-        assert self.passing
-        return self.passing.build_evaluation()
+        """Return the evaluation of the samples."""
+        return self._evaluation
 
     def accelerations(self) -> Array:
-        """Return q̈ (N, n) of samples that pass the audit."""
-        return self.evaluation().a
+        """Return q̈ (N, n)."""
+        return self._evaluation.a.copy()
 
     def diagnostics(self) -> Diagnostics:
-        """Check the samples that pass the audit, and build the diagnostics with the findings and notes."""
-        assert self.times is not None
-        checked = check_samples(self.problem, self.trajectory, self.times, lambda: None, self.evaluation())
+        """Check the samples, and build the diagnostics with the findings and notes."""
+        checked = check_samples(self.problem, self.trajectory, self.times, lambda: None)
         return _build_diagnostics(self.problem, self.trajectory, checked)
-
-
-_FIELDS_OF_PASSING = (*_ResultParts.fields, "evaluation", "accelerations", "diagnostics")
 
 
 def _add_notes(run: Result, notes_to_add: Sequence[str]) -> Result:

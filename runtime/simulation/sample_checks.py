@@ -42,11 +42,9 @@ def check_samples(
     trajectory: Trajectory,
     times: Array,
     poll: Callable[[], object],
-    known_evaluation: Evaluation | None = None,
 ) -> CheckedSamples:
     """Evaluate all samples of a run at `times` (N,), s, and check them.
 
-    `known_evaluation`: of all samples of a short run, which is then not computed again.
     `poll` polls for cancellation; its exceptions are passed on. Raises SingularError for a sample without
     accelerations.
     """
@@ -56,10 +54,7 @@ def check_samples(
     energy, slip, a, start = list[Array](), list[Array](), x.a, None
     for first in range(0, max(N, 1), MAX_STORED):
         rows = slice(first, first + MAX_STORED)
-        if known_evaluation and N <= MAX_STORED:
-            evaluation = known_evaluation
-        else:
-            evaluation = compiled.evaluate(times[rows], x.q[rows], x.v[rows], x.memory[rows], problem.p, poll)
+        evaluation = compiled.evaluate(times[rows], x.q[rows], x.v[rows], x.memory[rows], problem.p, poll)
         energy.append(evaluation.energy)
         slip.append(evaluation.friction[:, :, 1])
         audit.add_samples(first, evaluation)

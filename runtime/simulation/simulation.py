@@ -39,7 +39,13 @@ from gudgeon.simulation.arguments import (
 from gudgeon.simulation.file_start import assemble_file_start
 from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
 from gudgeon.simulation.repeated_runs import RepeatedRuns
-from gudgeon.simulation.restart import build_violation_notes, check_resumed_state, copy_checked_state, merge_parameters
+from gudgeon.simulation.restart import (
+    build_violation_notes,
+    check_resumed_state,
+    copy_checked_state,
+    merge_parameters,
+    read_file_parameters,
+)
 from gudgeon.simulation.result_builder import build_result, check_result, mark_result_if_interrupted
 from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, check_requested_peaks, make_observer
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
@@ -300,10 +306,14 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             )
         names, compared_scene = check_requested_peaks(self.source, peaks), check_compared_scene(self.source, against)
         initial_state = None if start is None else copy_checked_state(self.source, start)
-        given, is_given, remarks = merge_parameters(
-            self.compiled, initial_state, parameters, read_contours(self.source, contour)
-        )
-        p, p_without_gains = prepare_run_values(self.compiled, given, is_given)
+        if initial_state is None and contour is None:
+            given, is_given, p, remarks = read_file_parameters(self.compiled, parameters)
+            given, is_given, (p, p_without_gains) = given.copy(), is_given.copy(), p.copy()
+        else:
+            given, is_given, remarks = merge_parameters(
+                self.compiled, initial_state, parameters, read_contours(self.source, contour)
+            )
+            p, p_without_gains = prepare_run_values(self.compiled, given, is_given)
         t0 = 0.0 if initial_state is None else initial_state.t
         times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
         check_sample_memory(self.compiled, len(times))
@@ -319,9 +329,9 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             file_start = assemble_file_start(self.compiled, p)
             warn_guess_deviations(self.source, file_start.guess_deviations)
             q, v, memory = file_start.q.copy(), file_start.v.copy(), file_start.memory.copy()
-            remarks, allowed_error = remarks + file_start.notes, file_start.allowed_error
+            remarks += file_start.notes
         else:
-            q, v, memory, allowed_error = initial_state.q, initial_state.v, initial_state.memory, None
+            q, v, memory = initial_state.q, initial_state.v, initial_state.memory
             check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
             remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
@@ -346,7 +356,6 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             settings.audit,
             initial_state,
             observer,
-            allowed_error,
             ctrl_c.raise_delayed,
         )
         result = self._integrate_problem(problem, given, is_given, observer, ctrl_c)

@@ -8,7 +8,10 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.assembly.linkage import compute_mechanism_size
+from gudgeon.assembly.start import search_start
 from gudgeon.errors import AssemblyError
+from gudgeon.model.parameters import prepare_values
 from tests.scenes import Load, loader
 from tests.slow import slow_but, slow_rows_but
 
@@ -195,3 +198,15 @@ start: {set: {crank.theta: 40 deg}}
     with pytest.raises(AssemblyError, match="contradict each other") as caught:
         gudgeon.load(file).start()
     assert "pin" in str(caught.value) and "start.set" in str(caught.value)
+
+
+@pytest.mark.parametrize("length", [0.3, 1.0, 7.0])
+def test_a_double_root_at_the_guess_is_closed_in_c(length: float) -> None:
+    """bob.x = length and |bob| = length have the double root bob.y = 0, where both equations depend on each other."""
+    simulation = gudgeon.load("pendulum")
+    compiled, p = simulation.compiled, prepare_values(simulation.compiled, {"length": length})[0]
+    closed = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
+    assert closed is not None
+    sought = search_start(compiled, p)
+    assert closed[0].tolist() == sought.q.tolist() == [length, 0.0, 0.0]
+    assert closed[1].tolist() == sought.v.tolist() == [0.0, 0.0, 0.0]

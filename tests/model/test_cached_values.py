@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.assembly.guess_warnings import find_guess_deviations
+from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import CACHED_VALUES
-from gudgeon.errors import BadValueError
-from gudgeon.model.cached_values import MAX_BYTES, MAX_ENTRIES, cache_by_values
+from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.model.cached_values import MAX_BYTES, MAX_ENTRIES, cache_by_values, cache_selected_values
+from gudgeon.simulation.file_start import assemble_file_start
 
 
 class Owner:
@@ -97,3 +100,63 @@ def test_equal_values_of_other_types_are_other_arguments_and_lists_are_not_cache
     ]
     assert len(calls) == 4
     assert describe(owner, [1]) == describe(owner, [1]) == "list" and len(calls) == 6
+
+
+def test_results_that_depend_on_the_scene_alone_stay() -> None:
+    """Many parameter values do not remove them, so that they are computed once."""
+    calls: list[int] = []
+
+    @cache_by_values
+    def measure(owner: Owner) -> int:
+        calls.append(1)
+        return 1
+
+    @cache_by_values
+    def double(owner: Owner, value: float) -> float:
+        return 2.0 * value
+
+    owner = Owner()
+    for k in range(2 * MAX_ENTRIES):
+        assert measure(owner) == 1 and double(owner, float(k)) == 2.0 * k
+    assert len(calls) == 1
+
+
+def test_selected_values_are_the_key() -> None:
+    """Only what `select` returns is compared; without a hash, nothing is cached."""
+    calls: list[float] = []
+
+    @cache_selected_values(lambda owner, values: (values[:1],) if values[0] > 0.0 else ([],))
+    def compute_first(owner: Owner, values: np.ndarray) -> float:
+        calls.append(float(values[0]))
+        return float(values[0])
+
+    owner = Owner()
+    for second in (1.0, 2.0, 3.0):
+        assert compute_first(owner, np.array([5.0, second])) == 5.0
+        assert compute_first(owner, np.array([-5.0, second])) == -5.0
+    assert calls == [5.0, -5.0, -5.0, -5.0]
+
+
+@pytest.mark.parametrize("name", ["pendulum", "slider_crank", "four_bar", "nine_bar_press", "andrews_squeezer"])
+def test_a_cached_start_is_that_of_its_own_parameters(name: str) -> None:
+    """Each parameter is changed in turn after a start was cached: each start has the bits of a fresh assembly."""
+    simulation = gudgeon.load(name)
+    compiled, n_reused = simulation.compiled, 0
+    first = assemble_file_start(compiled, simulation.p)
+    for k, slot in enumerate(compiled.source.slots):
+        if slot.words:
+            continue
+        given, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), bool)
+        given[k], is_given[k] = 1.001 * slot.default + 1e-4 * (slot.default == 0.0), True
+        p = compiled.prepare(given, is_given)
+        try:
+            start = assemble_start(compiled, p)
+        except GudgeonError:
+            with pytest.raises(GudgeonError):
+                assemble_file_start(compiled, p)
+            continue
+        cached = assemble_file_start(compiled, p)
+        assert cached.q.tobytes() == start.q.tobytes() and cached.v.tobytes() == start.v.tobytes(), slot.address
+        assert cached.guess_deviations == find_guess_deviations(compiled, p, start.q)
+        n_reused += cached.q is first.q
+    assert n_reused > 0 or compiled.source.methods == ("kinematic",)

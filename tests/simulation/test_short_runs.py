@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.contract.boundary import AUDIT_FAILS, N_CHECKS, N_WORK
 from gudgeon.errors import AuditError
 from gudgeon.integrators.single_run import MAX_FREE
 from gudgeon.model.deferred_fields import find_deferred_function
@@ -112,6 +113,53 @@ def test_results_with_unread_diagnostics_are_pickled_copied_and_replaced() -> No
         assert is_deferred(run) and same(make(run), expected) and same(run, expected)
 
 
+FAULTS = {  # what is changed in the arrays that C checks, which have rows of q, q̇ and works
+    "none": lambda y, n, audited, start: None,
+    "position": lambda y, n, audited, start: y.__setitem__((1, 0), y[1, 0] + 1e-6),
+    "velocity": lambda y, n, audited, start: y.__setitem__((1, n + 2), 1.001 * y[1, n + 2] + 1e-3),
+    "start": lambda y, n, audited, start: start.__setitem__(0, start[0] + 1e-6),
+    "rates of the start": lambda y, n, audited, start: start.__setitem__(n + 2, start[n + 2] + 1e-3),
+    "a step": lambda y, n, audited, start: audited.__setitem__(0, 2.0 * AUDIT_FAILS),
+    "not a number": lambda y, n, audited, start: y.__setitem__((2, 3), np.nan),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_c_finds_known_faults_in_samples(fault: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Samples pass as they are, and do not if one number of a sample, of the start or of the audit is wrong."""
+    simulation, decisions = gudgeon.load("andrews_squeezer"), list[int]()
+    compiled, check = simulation.compiled, simulation.compiled.lib.gudgeon_check_samples
+
+    def view(pointer: Any, *shape: int) -> np.ndarray:
+        size = 8 * int(np.prod(shape))
+        return np.frombuffer(compiled.ffi.buffer(compiled.ffi.cast("char *", pointer), size)).reshape(shape)
+
+    def change_and_check(n_samples: int, *arguments: Any) -> int:
+        y, audited = view(arguments[1], n_samples, 2 * compiled.n + N_WORK), view(arguments[5], N_CHECKS)
+        arrays = y, audited, view(arguments[8], 2 * compiled.n)
+        copies = [array.copy() for array in arrays]
+        FAULTS[fault](y, compiled.n, *arrays[1:])
+        decisions.append(check(n_samples, *arguments))
+        for array, values in zip(arrays, copies, strict=True):
+            array[...] = values
+        return decisions[-1]
+
+    monkeypatch.setitem(vars(compiled.lib), "gudgeon_check_samples", change_and_check)
+    run = simulation.simulate(1e-4, output=2)
+    assert decisions == [int(fault == "none")] and is_deferred(run) == (fault == "none")
+    assert not run.diagnostics.notes  # the samples are right: the findings say so
+
+
+def test_c_does_not_decide_on_samples_in_contact() -> None:
+    """Forces in joints have checks of their own."""
+    simulation = gudgeon.load("nine_bar_press", "dry")
+    fine = simulation.simulate(0.02, output=2000)
+    t_contact = float(fine.t[fine["A.F"].argmax()])
+    assert fine["A.F"].max() > 0.0
+    assert not is_deferred(simulation.simulate(output=[t_contact]))
+    assert is_deferred(simulation.simulate(1e-4, output=1))
+
+
 def test_a_failed_check_of_samples_is_an_error_of_the_call(monkeypatch: pytest.MonkeyPatch) -> None:
     """An error of power far above its limit, which C reports for the second sample."""
     simulation = gudgeon.load("andrews_squeezer")
@@ -124,6 +172,7 @@ def test_a_failed_check_of_samples_is_an_error_of_the_call(monkeypatch: pytest.M
         arguments[-1][4] = 1.0
 
     monkeypatch.setitem(vars(compiled.lib), "gudgeon_audit_samples", report_error)
+    monkeypatch.setitem(vars(compiled.lib), "gudgeon_check_samples", lambda *_: 0)
     with pytest.raises(AuditError, match="check power"):
         simulate(1e-4, output=2)
     assert simulate(1e-4, output=2, audit=False).diagnostics.audit == ()
@@ -135,14 +184,22 @@ def test_an_energy_that_is_not_balanced_is_an_error_of_the_call(monkeypatch: pyt
     """The kinetic energy of one sample is wrong by 1 kJ in what C evaluates."""
     simulation = gudgeon.load("andrews_squeezer")
     assert is_deferred(simulation.simulate(2e-3, output=60))
-    evaluate = simulation.compiled.lib.gudgeon_evaluate
+    functions = vars(simulation.compiled.lib)
+    check, evaluate = simulation.compiled.lib.gudgeon_check_samples, simulation.compiled.lib.gudgeon_evaluate
+
+    def change_energies(n: int, *arguments: Any) -> int:
+        status: int = check(n, *arguments)
+        arguments[4][2 * (n - 1)] += 1e3
+        return status
 
     def change_energy(n: int, *arguments: Any) -> int:
         status: int = evaluate(n, *arguments)
         arguments[12][2 * (n - 1)] += 1e3
         return status
 
-    monkeypatch.setitem(vars(simulation.compiled.lib), "gudgeon_evaluate", change_energy)
+    monkeypatch.setitem(functions, "gudgeon_check_samples", change_energies)
+    assert not is_deferred(simulation.simulate(2e-3, output=60))
+    monkeypatch.setitem(functions, "gudgeon_evaluate", change_energy)
     with pytest.raises(AuditError, match="check energy"):
         simulation.simulate(2e-3, output=60)
 
