@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -27,16 +28,62 @@ if TYPE_CHECKING:
     from gudgeon.generator.kernels.program import Program
 
 NAME = "taylor"
-# Costs in operations of the series. They are fitted by eye to times in eight SIMD lanes: those of the race for 2 and 6
-# links, and those of the pendulum. dop853 gains more there than in single runs; both have the same method and bits.
-DOP853_STEP_COST = 7700.0  # rejected steps included
-DOP853_RHS_COST = 4.3  # per operation of the right-hand side
-SERIES_STEP_COST, SERIES_CLOSURE_COST = 2900.0, 1500.0  # per step without its series; per closure equation
+MIN_TOL_EXPONENT, MAX_TOL_EXPONENT = 3, 14  # -log10 of the loosest and of the tightest tolerance that are compared
+# -log10 of the loosest tolerance of runs that are usually single, such as references and long runs
+SINGLE_RUN_EXPONENT = 10
+SINGLE_RUN_GAIN = 0.9  # there, `auto` uses the series if a single run needs less than this fraction of the time
 # Step length of the series divided by that of dop853 at the tolerance 10^-MIN_TOL_EXPONENT, and the exponent of its
 # growth. The step length of the series does not depend on the tolerance.
 STEP_LENGTH_RATIO, STEP_LENGTH_GROWTH = 0.4, 0.1
-MIN_TOL_EXPONENT, MAX_TOL_EXPONENT = 3, 12  # -log10 of the loosest and of the tightest tolerance that are compared
-MAX_RHS_OPERATIONS = 200  # of larger right-hand sides the series costs more, and it is not derived
+PULSES_LENGTH_FACTOR = 2.0  # on that ratio: at transient terms of time, dop853 rejects more steps
+# Statements of the recurrence, and products of series in them, per operation of the right-hand side
+SERIES_LINES_PER_OPERATION, SERIES_PRODUCTS_PER_OPERATION = 1.6, 0.32
+MAX_BUNDLED_OPERATIONS = 200  # of the right-hand side: larger series are no part of the scene's library
+MAX_RHS_OPERATIONS = 1500  # of larger right-hand sides the series takes too long to compile
+
+
+@dataclass(frozen=True)
+class StepCosts:
+    """Costs of a step in operations of a recurrence, fitted by eye to measured times (benchmarks/methods.py).
+
+    `dop853`: of a step of dop853 with its rejected attempts; `rhs`: in addition per operation of the right-hand side.
+    `series`: of a step of the series without its recurrence; `order`: in addition per order; `product`: per product,
+    order and lower order. `closure`, `series_closure`: of both in addition per closure equation. `loops`: factor of the
+    recurrence with closures, whose lines depend on each other.
+    """
+
+    dop853: float
+    rhs: float
+    closure: float
+    series: float
+    series_closure: float
+    order: float
+    product: float
+    loops: float
+
+    def compute_ratio(self, rtol: float, n_operations: int, n_rows: int) -> float:
+        """Return the predicted time of the series over that of dop853, at equal tolerance `rtol` of `auto`.
+
+        n_operations: of the right-hand side in tree coordinates; n_rows: closure equations. Without transients.
+        """
+        order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
+        n_lines, n_products = (
+            rate * n_operations for rate in (SERIES_LINES_PER_OPERATION, SERIES_PRODUCTS_PER_OPERATION)
+        )
+        recurrence = order * (self.order + (self.loops if n_rows else 1.0) * n_lines + self.product * order * n_products)
+        series = self.series + self.series_closure * n_rows + recurrence
+        length_ratio = STEP_LENGTH_RATIO * (rtol / 10.0**-MIN_TOL_EXPONENT) ** -STEP_LENGTH_GROWTH
+        return series / (length_ratio * (self.dop853 + self.closure * n_rows + self.rhs * n_operations))
+
+
+# In a single run a vector holds eight products of the series, and in eight SIMD lanes one product of eight runs.
+# Lanes accelerate the right-hand side of dop853 more.
+SINGLE_RUN = StepCosts(
+    dop853=1770.0, rhs=28.0, closure=830.0, series=1000.0, series_closure=830.0, order=23.0, product=0.11, loops=1.5
+)
+EIGHT_LANES = StepCosts(
+    dop853=7700.0, rhs=4.3, closure=0.0, series=2900.0, series_closure=1500.0, order=0.0, product=1.0, loops=1.0
+)
 
 
 def make_taylor_series(program: Program) -> Series:
@@ -51,20 +98,22 @@ def make_taylor_series(program: Program) -> Series:
 
 
 def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
-    """Return the Taylor series with which `auto` integrates a program, and the tolerance below which it does.
+    """Return the Taylor series in a program's library, and the tolerance below which `auto` integrates by series.
 
-    Return (None, 0.0) if `auto` uses dop853: the motion is not smooth, it has transient terms of time (`pulses`), the
-    right-hand side has more than MAX_RHS_OPERATIONS, or the series costs more.
+    The tolerance is 0.0 if `auto` always uses dop853: the motion is not smooth, or the series costs more. The series is
+    None if only tolerances of single runs need it (SINGLE_RUN_EXPONENT), or if the right-hand side has more than
+    MAX_BUNDLED_OPERATIONS. It is then compiled on request, for the variant NAME of the scene.
     """
     try:
         system = _get_smooth_system(program)
-        if program.time_terms.pulses or _count_rhs_operations(program) > MAX_RHS_OPERATIONS:
-            return None, 0.0
-        series = _derive_series(system)
+        n_operations = _count_rhs_operations(program)
+        tolerance = predict_tolerance(
+            n_operations, len(program.integrated.system.rows), bool(program.time_terms.pulses)
+        )
+        is_bundled = tolerance > 10.0 ** (1 - SINGLE_RUN_EXPONENT) and n_operations <= MAX_BUNDLED_OPERATIONS
+        return _derive_series(system) if is_bundled else None, tolerance
     except NoTaylorSeries:
         return None, 0.0
-    tolerance = _predict_tolerance(program, series)
-    return (series, tolerance) if tolerance else (None, 0.0)
 
 
 def _count_rhs_operations(program: Program) -> int:
@@ -73,23 +122,24 @@ def _count_rhs_operations(program: Program) -> int:
     return next(kernel.n_operations for kernel in program.tree.unpaired_kernels if kernel.name == DYNAMICS)
 
 
-def _predict_tolerance(program: Program, series: Series) -> float:
+def predict_tolerance(n_operations: int, n_rows: int, has_pulses: bool) -> float:
     """Return the tolerance below which a cost model predicts less time for the series than for dop853; 0.0 for none.
 
-    The comparison is made at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between
-    two of them: 10^(0.5 − exponent).
+    n_operations: of the right-hand side; n_rows: closure equations; has_pulses: whether it has transient terms of time.
+    From 10^-SINGLE_RUN_EXPONENT on, the ratio r_1 of the times of single runs must be below SINGLE_RUN_GAIN. At looser
+    tolerances, at which batches are usual, min(1, r_1) r_8 must be below 1 with the ratio r_8 in eight lanes. The
+    comparison is made at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between two
+    of them: 10^(0.5 − exponent).
     """
-    n_rhs, n_rows, tolerance = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
+    tolerance = 0.0
+    if n_operations > MAX_RHS_OPERATIONS:
+        return tolerance
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
-        rtol = 10.0**-exponent
-        order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
-        series_cost = (
-            SERIES_STEP_COST
-            + SERIES_CLOSURE_COST * n_rows
-            + order * (series.terms.n_operations + order * len(series.products))
+        single, lanes = (
+            costs.compute_ratio(10.0**-exponent, n_operations, n_rows) / (PULSES_LENGTH_FACTOR if has_pulses else 1.0)
+            for costs in (SINGLE_RUN, EIGHT_LANES)
         )
-        length_ratio = STEP_LENGTH_RATIO * (rtol / 10.0**-MIN_TOL_EXPONENT) ** -STEP_LENGTH_GROWTH
-        is_cheaper = series_cost < length_ratio * (DOP853_STEP_COST + DOP853_RHS_COST * n_rhs)
+        is_cheaper = single < SINGLE_RUN_GAIN if exponent >= SINGLE_RUN_EXPONENT else min(1.0, single) * lanes < 1.0
         tolerance = (tolerance or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
     return tolerance
 

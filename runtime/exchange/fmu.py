@@ -176,7 +176,7 @@ def _format_header(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    fine = source.taylor_below or FINE
+    fine = (source.taylor and source.taylor_below) or FINE
     methods = {
         rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol)) for rtol in (fine, 0.5 * fine)
     }
