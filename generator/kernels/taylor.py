@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -31,59 +30,25 @@ NAME = "taylor"
 MIN_TOL_EXPONENT, MAX_TOL_EXPONENT = 3, 14  # -log10 of the loosest and of the tightest tolerance that are compared
 # -log10 of the loosest tolerance of runs that are usually single, such as references and long runs
 SINGLE_RUN_EXPONENT = 10
+MAX_SINGLE_RUN_TOL = 10.0 ** (0.5 - SINGLE_RUN_EXPONENT)
 SINGLE_RUN_GAIN = 0.9  # there, `auto` uses the series if a single run needs less than this fraction of the time
 # Step length of the series divided by that of dop853 at the tolerance 10^-MIN_TOL_EXPONENT, and the exponent of its
 # growth. The step length of the series does not depend on the tolerance.
 STEP_LENGTH_RATIO, STEP_LENGTH_GROWTH = 0.4, 0.1
-PULSES_LENGTH_FACTOR = 2.0  # on that ratio: at transient terms of time, dop853 rejects more steps
-# Statements of the recurrence, and products of series in them, per operation of the right-hand side
-SERIES_LINES_PER_OPERATION, SERIES_PRODUCTS_PER_OPERATION = 1.6, 0.32
+PULSES_LENGTH_FACTOR = 2.3  # on that ratio: at transient terms of time, dop853 rejects more steps
+# Times in ns of a step in a single run, fitted to chains of 1 to 6 links and Andrews' squeezer: of dop853, in addition
+# per closure equation and per square root of the operations of the right-hand side; of the series, in addition per
+# closure equation, per order, and per order and operation
+DOP853_STEP, DOP853_CLOSURE, DOP853_ROOT_OF_OPERATIONS = 750.0, 120.0, 88.0
+SERIES_STEP, SERIES_CLOSURE, SERIES_ORDER, SERIES_OPERATION = 450.0, 200.0, 7.0, 0.67
+# Costs of a step in eight SIMD lanes, fitted to the race for 2 and 6 links: of dop853, in addition per operation of the
+# right-hand side; of the series, in addition per closure equation; per order: operations and products of the series
+# per operation of the right-hand side. dop853 gains more there than in single runs.
+LANES_DOP853_STEP, LANES_DOP853_OPERATION = 7700.0, 4.3
+LANES_SERIES_STEP, LANES_SERIES_CLOSURE = 2900.0, 1500.0
+SERIES_OPERATIONS, SERIES_PRODUCTS = 1.6, 0.32
 MAX_BUNDLED_OPERATIONS = 200  # of the right-hand side: larger series are no part of the scene's library
 MAX_RHS_OPERATIONS = 1500  # of larger right-hand sides the series takes too long to compile
-
-
-@dataclass(frozen=True)
-class StepCosts:
-    """Costs of a step in operations of a recurrence, fitted by eye to measured times (benchmarks/methods.py).
-
-    `dop853`: of a step of dop853 with its rejected attempts; `rhs`: in addition per operation of the right-hand side.
-    `series`: of a step of the series without its recurrence; `order`: in addition per order; `product`: per product,
-    order and lower order. `closure`, `series_closure`: of both in addition per closure equation. `loops`: factor of the
-    recurrence with closures, whose lines depend on each other.
-    """
-
-    dop853: float
-    rhs: float
-    closure: float
-    series: float
-    series_closure: float
-    order: float
-    product: float
-    loops: float
-
-    def compute_ratio(self, rtol: float, n_operations: int, n_rows: int) -> float:
-        """Return the predicted time of the series over that of dop853, at equal tolerance `rtol` of `auto`.
-
-        n_operations: of the right-hand side in tree coordinates; n_rows: closure equations. Without transients.
-        """
-        order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
-        n_lines, n_products = (
-            rate * n_operations for rate in (SERIES_LINES_PER_OPERATION, SERIES_PRODUCTS_PER_OPERATION)
-        )
-        recurrence = order * (self.order + (self.loops if n_rows else 1.0) * n_lines + self.product * order * n_products)
-        series = self.series + self.series_closure * n_rows + recurrence
-        length_ratio = STEP_LENGTH_RATIO * (rtol / 10.0**-MIN_TOL_EXPONENT) ** -STEP_LENGTH_GROWTH
-        return series / (length_ratio * (self.dop853 + self.closure * n_rows + self.rhs * n_operations))
-
-
-# In a single run a vector holds eight products of the series, and in eight SIMD lanes one product of eight runs.
-# Lanes accelerate the right-hand side of dop853 more.
-SINGLE_RUN = StepCosts(
-    dop853=1770.0, rhs=28.0, closure=830.0, series=1000.0, series_closure=830.0, order=23.0, product=0.11, loops=1.5
-)
-EIGHT_LANES = StepCosts(
-    dop853=7700.0, rhs=4.3, closure=0.0, series=2900.0, series_closure=1500.0, order=0.0, product=1.0, loops=1.0
-)
 
 
 def make_taylor_series(program: Program) -> Series:
@@ -110,8 +75,9 @@ def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
         tolerance = predict_tolerance(
             n_operations, len(program.integrated.system.rows), bool(program.time_terms.pulses)
         )
-        is_bundled = tolerance > 10.0 ** (1 - SINGLE_RUN_EXPONENT) and n_operations <= MAX_BUNDLED_OPERATIONS
-        return _derive_series(system) if is_bundled else None, tolerance
+        if n_operations <= MAX_BUNDLED_OPERATIONS and tolerance > MAX_SINGLE_RUN_TOL:
+            return _derive_series(system), tolerance
+        return None, min(tolerance, MAX_SINGLE_RUN_TOL)
     except NoTaylorSeries:
         return None, 0.0
 
@@ -126,22 +92,39 @@ def predict_tolerance(n_operations: int, n_rows: int, has_pulses: bool) -> float
     """Return the tolerance below which a cost model predicts less time for the series than for dop853; 0.0 for none.
 
     n_operations: of the right-hand side; n_rows: closure equations; has_pulses: whether it has transient terms of time.
-    From 10^-SINGLE_RUN_EXPONENT on, the ratio r_1 of the times of single runs must be below SINGLE_RUN_GAIN. At looser
-    tolerances, at which batches are usual, min(1, r_1) r_8 must be below 1 with the ratio r_8 in eight lanes. The
-    comparison is made at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between two
-    of them: 10^(0.5 − exponent).
+    From 10^-SINGLE_RUN_EXPONENT on, the ratio r_1 of the times of single runs must be below SINGLE_RUN_GAIN; also at
+    looser ones with transients, which lanes do not accelerate. At other looser tolerances, at which batches are usual,
+    min(1, r_1) r_8 must be below 1 with the ratio r_8 in eight lanes. The comparison is made at powers of ten from
+    10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between two of them: 10^(0.5 − exponent).
     """
     tolerance = 0.0
     if n_operations > MAX_RHS_OPERATIONS:
         return tolerance
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
-        single, lanes = (
-            costs.compute_ratio(10.0**-exponent, n_operations, n_rows) / (PULSES_LENGTH_FACTOR if has_pulses else 1.0)
-            for costs in (SINGLE_RUN, EIGHT_LANES)
-        )
-        is_cheaper = single < SINGLE_RUN_GAIN if exponent >= SINGLE_RUN_EXPONENT else min(1.0, single) * lanes < 1.0
+        single, lanes = _predict_ratios(exponent, n_operations, n_rows, has_pulses)
+        single_decides = has_pulses or exponent >= SINGLE_RUN_EXPONENT
+        is_cheaper = single < SINGLE_RUN_GAIN if single_decides else min(1.0, single) * lanes < 1.0
         tolerance = (tolerance or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
     return tolerance
+
+
+def _predict_ratios(exponent: int, n_operations: int, n_rows: int, has_pulses: bool) -> tuple[float, float]:
+    """Return the predicted times of the series over those of dop853 at the tolerance 10^-exponent of `auto`.
+
+    The first is that of single runs, the second that of eight lanes. Other arguments as in `predict_tolerance`.
+    """
+    order = math.ceil(1.0 + TAYLOR_EFFORT * (exponent * math.log(10.0) + math.log(TAYLOR_STRICTNESS)))
+    length_ratio = STEP_LENGTH_RATIO * 10.0 ** (STEP_LENGTH_GROWTH * (exponent - MIN_TOL_EXPONENT))
+    length_ratio *= PULSES_LENGTH_FACTOR if has_pulses else 1.0
+    series = SERIES_STEP + SERIES_CLOSURE * n_rows + order * (SERIES_ORDER + SERIES_OPERATION * n_operations)
+    dop853 = DOP853_STEP + DOP853_CLOSURE * n_rows + DOP853_ROOT_OF_OPERATIONS * math.sqrt(n_operations)
+    lanes_series = (
+        LANES_SERIES_STEP
+        + LANES_SERIES_CLOSURE * n_rows
+        + order * (SERIES_OPERATIONS + order * SERIES_PRODUCTS) * n_operations
+    )
+    lanes_dop853 = LANES_DOP853_STEP + LANES_DOP853_OPERATION * n_operations
+    return series / (length_ratio * dop853), lanes_series / (length_ratio * lanes_dop853)
 
 
 def _get_smooth_system(program: Program) -> TreeSystem:

@@ -223,8 +223,8 @@ def find_required_variant(source: KernelSource, method: str, rtol: float | str |
     """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method.
 
     The variant is STAGES for methods with implicit stages, or the name of a Taylor method. "auto" needs the latter at
-    tolerances at which it integrates by series, without a fixed step. Without a compiler, it uses the library's methods.
-    Raises BadValueError for such a run with an invalid `rtol`.
+    tolerances at which it integrates by series, without a fixed step. Without a compiler, it uses the methods of the
+    library. Raises BadValueError for such a run with an invalid `rtol`.
     """
     if method in STAGED:
         return "" if source.stages or source.reason_without_jacobian else STAGES
