@@ -9,7 +9,7 @@
 enum { TAYLOR_DEFECT_LOG2 = 5 /* of the largest defect at the end of a step, in tolerances; less at low orders */ };
 enum { MIN_TAYLOR_ORDER = 4 };
 
-static const double taylor_error_nodes[] = {0.0};
+static const double taylor_error_nodes[] = {0.0, 1.0}; /* the series, and the defect at the end of a step */
 
 /*
  * Return the order of the Taylor series for a relative tolerance: ceil(1 - TAYLOR_ORDERS_PER_E_FOLD ln tolerance),

@@ -221,7 +221,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     Starts and outputs are in absolute coordinates in all of them. STAGES is the reduced one with the functions of
     methods that solve their stages together; scenes with a film and the full formulation have them anyway. TAYLOR is
     the reduced one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth. Where
-    `auto` integrates by the series, every reduced one has it.
+    the series is small and `auto` often integrates by it, every reduced one has it (`choose_taylor_series`).
     """
     model, full, staged = model.copy_mutable(), formulation == "full", formulation == STAGES
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)

@@ -27,16 +27,28 @@ if TYPE_CHECKING:
     from gudgeon.generator.kernels.program import Program
 
 NAME = "taylor"
-# Costs in operations of the series. They are fitted by eye to times in eight SIMD lanes: those of the race for 2 and 6
-# links, and those of the pendulum. dop853 gains more there than in single runs; both have the same method and bits.
-DOP853_STEP_COST = 7700.0  # rejected steps included
-DOP853_RHS_COST = 4.3  # per operation of the right-hand side
-SERIES_STEP_COST, SERIES_CLOSURE_COST = 2900.0, 1500.0  # per step without its series; per closure equation
+MIN_TOL_EXPONENT, MAX_TOL_EXPONENT = 3, 14  # -log10 of the loosest and of the tightest tolerance that are compared
+# -log10 of the loosest tolerance of runs that are usually single, such as references and long runs
+SINGLE_RUN_EXPONENT = 10
+MAX_SINGLE_RUN_TOL = 10.0 ** (0.5 - SINGLE_RUN_EXPONENT)
+SINGLE_RUN_GAIN = 0.9  # there, `auto` uses the series if a single run needs less than this fraction of the time
 # Step length of the series divided by that of dop853 at the tolerance 10^-MIN_TOL_EXPONENT, and the exponent of its
 # growth. The step length of the series does not depend on the tolerance.
 STEP_LENGTH_RATIO, STEP_LENGTH_GROWTH = 0.4, 0.1
-MIN_TOL_EXPONENT, MAX_TOL_EXPONENT = 3, 12  # -log10 of the loosest and of the tightest tolerance that are compared
-MAX_RHS_OPERATIONS = 200  # of larger right-hand sides the series costs more, and it is not derived
+PULSES_LENGTH_FACTOR = 2.3  # on that ratio: at transient terms of time, dop853 rejects more steps
+# Times in ns of a step in a single run, fitted to chains of 1 to 6 links and Andrews' squeezer: of dop853, in addition
+# per closure equation and per square root of the operations of the right-hand side; of the series, in addition per
+# closure equation, per order, and per order and operation
+DOP853_STEP, DOP853_CLOSURE, DOP853_ROOT_OF_OPERATIONS = 750.0, 120.0, 88.0
+SERIES_STEP, SERIES_CLOSURE, SERIES_ORDER, SERIES_OPERATION = 450.0, 200.0, 7.0, 0.67
+# Costs of a step in eight SIMD lanes, fitted to the race for 2 and 6 links: of dop853, in addition per operation of the
+# right-hand side; of the series, in addition per closure equation; per order: operations and products of the series
+# per operation of the right-hand side. dop853 gains more there than in single runs.
+LANES_DOP853_STEP, LANES_DOP853_OPERATION = 7700.0, 4.3
+LANES_SERIES_STEP, LANES_SERIES_CLOSURE = 2900.0, 1500.0
+SERIES_OPERATIONS, SERIES_PRODUCTS = 1.6, 0.32
+MAX_BUNDLED_OPERATIONS = 200  # of the right-hand side: larger series are no part of the scene's library
+MAX_RHS_OPERATIONS = 1500  # of larger right-hand sides the series takes too long to compile
 
 
 def make_taylor_series(program: Program) -> Series:
@@ -51,20 +63,23 @@ def make_taylor_series(program: Program) -> Series:
 
 
 def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
-    """Return the Taylor series with which `auto` integrates a program, and the tolerance below which it does.
+    """Return the Taylor series in a program's library, and the tolerance below which `auto` integrates by series.
 
-    Return (None, 0.0) if `auto` uses dop853: the motion is not smooth, it has transient terms of time (`pulses`), the
-    right-hand side has more than MAX_RHS_OPERATIONS, or the series costs more.
+    The tolerance is 0.0 if `auto` always uses dop853: the motion is not smooth, or the series costs more. The series is
+    None if only tolerances of single runs need it (SINGLE_RUN_EXPONENT), or if the right-hand side has more than
+    MAX_BUNDLED_OPERATIONS. It is then compiled on request, for the variant NAME of the scene.
     """
     try:
         system = _get_smooth_system(program)
-        if program.time_terms.pulses or _count_rhs_operations(program) > MAX_RHS_OPERATIONS:
-            return None, 0.0
-        series = _derive_series(system)
+        n_operations = _count_rhs_operations(program)
+        tolerance = predict_tolerance(
+            n_operations, len(program.integrated.system.rows), bool(program.time_terms.pulses)
+        )
+        if n_operations <= MAX_BUNDLED_OPERATIONS and tolerance > MAX_SINGLE_RUN_TOL:
+            return _derive_series(system), tolerance
+        return None, min(tolerance, MAX_SINGLE_RUN_TOL)
     except NoTaylorSeries:
         return None, 0.0
-    tolerance = _find_crossover_tolerance(program, series)
-    return (series, tolerance) if tolerance else (None, 0.0)
 
 
 def _count_rhs_operations(program: Program) -> int:
@@ -73,25 +88,43 @@ def _count_rhs_operations(program: Program) -> int:
     return next(kernel.n_operations for kernel in program.tree.unvectorized_kernels if kernel.name == DYNAMICS)
 
 
-def _find_crossover_tolerance(program: Program, series: Series) -> float:
+def predict_tolerance(n_operations: int, n_rows: int, has_pulses: bool) -> float:
     """Return the tolerance below which a cost model predicts less time for the series than for dop853; 0.0 for none.
 
-    The costs are compared at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The series must be
-    cheaper at every power below the result, which lies between two of them: 10^(0.5 − exponent).
+    n_operations: of the right-hand side; n_rows: closure equations; has_pulses: whether it has transient terms of time.
+    From 10^-SINGLE_RUN_EXPONENT on, the ratio r_1 of the times of single runs must be below SINGLE_RUN_GAIN; also at
+    looser ones with transients, which lanes do not accelerate. At other looser tolerances, at which batches are usual,
+    min(1, r_1) r_8 must be below 1 with the ratio r_8 in eight lanes. The comparison is made at powers of ten from
+    10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between two of them: 10^(0.5 − exponent).
     """
-    n_rhs, n_rows, tolerance = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
+    tolerance = 0.0
+    if n_operations > MAX_RHS_OPERATIONS:
+        return tolerance
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
-        rtol = 10.0**-exponent
-        order = math.ceil(1.0 - TAYLOR_ORDERS_PER_E_FOLD * math.log(rtol / TAYLOR_TOLERANCE_RATIO))
-        series_cost = (
-            SERIES_STEP_COST
-            + SERIES_CLOSURE_COST * n_rows
-            + order * (series.terms.n_operations + order * len(series.products))
-        )
-        length_ratio = STEP_LENGTH_RATIO * (rtol / 10.0**-MIN_TOL_EXPONENT) ** -STEP_LENGTH_GROWTH
-        is_cheaper = series_cost < length_ratio * (DOP853_STEP_COST + DOP853_RHS_COST * n_rhs)
+        single, lanes = _predict_ratios(exponent, n_operations, n_rows, has_pulses)
+        single_decides = has_pulses or exponent >= SINGLE_RUN_EXPONENT
+        is_cheaper = single < SINGLE_RUN_GAIN if single_decides else min(1.0, single) * lanes < 1.0
         tolerance = (tolerance or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
     return tolerance
+
+
+def _predict_ratios(exponent: int, n_operations: int, n_rows: int, has_pulses: bool) -> tuple[float, float]:
+    """Return the predicted times of the series over those of dop853 at the tolerance 10^-exponent of `auto`.
+
+    The first is that of single runs, the second that of eight lanes. Other arguments as in `predict_tolerance`.
+    """
+    order = math.ceil(1.0 + TAYLOR_EFFORT * (exponent * math.log(10.0) + math.log(TAYLOR_STRICTNESS)))
+    length_ratio = STEP_LENGTH_RATIO * 10.0 ** (STEP_LENGTH_GROWTH * (exponent - MIN_TOL_EXPONENT))
+    length_ratio *= PULSES_LENGTH_FACTOR if has_pulses else 1.0
+    series = SERIES_STEP + SERIES_CLOSURE * n_rows + order * (SERIES_ORDER + SERIES_OPERATION * n_operations)
+    dop853 = DOP853_STEP + DOP853_CLOSURE * n_rows + DOP853_ROOT_OF_OPERATIONS * math.sqrt(n_operations)
+    lanes_series = (
+        LANES_SERIES_STEP
+        + LANES_SERIES_CLOSURE * n_rows
+        + order * (SERIES_OPERATIONS + order * SERIES_PRODUCTS) * n_operations
+    )
+    lanes_dop853 = LANES_DOP853_STEP + LANES_DOP853_OPERATION * n_operations
+    return series / (length_ratio * dop853), lanes_series / (length_ratio * lanes_dop853)
 
 
 def _get_smooth_system(program: Program) -> TreeSystem:

@@ -201,7 +201,8 @@ class KernelSource:
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
     units: tuple[int, ...] = ()
     taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
-    taylor_below: float = 0.0  # tolerance below which `auto` integrates by the Taylor series; 0: never
+    # tolerance below which `auto` integrates by the Taylor series, of this library or of the variant; 0: never
+    taylor_below: float = 0.0
     stages: bool = False  # whether the library has the matrices of methods with coupled stages
     lanes: str = ""  # file to compile for lanes; "": there is none
     cdef: str = ""  # declarations of `main` where it is compiled without the engine; "": those of the engine

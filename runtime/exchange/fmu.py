@@ -177,7 +177,7 @@ def _format_header(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    small_rtol = source.taylor_below or FINE
+    small_rtol = (source.taylor and source.taylor_below) or FINE
     methods = {
         rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol))
         for rtol in (small_rtol, 0.5 * small_rtol)

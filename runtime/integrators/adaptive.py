@@ -102,9 +102,18 @@ def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
 def select_explicit_method(source: KernelSource, rtol: float) -> str:
     """Return the name of the explicit method of `auto`: TAYLOR for tolerances at which it is faster, else EXPLICIT.
 
-    The generator predicts this tolerance from the numbers of operations (generator/kernels/taylor.py).
+    The generator predicts this tolerance from the number of operations (generator/kernels/taylor.py). A library without
+    the series has EXPLICIT only: `lacks_series`.
     """
-    return TAYLOR if rtol < source.taylor_below else EXPLICIT
+    return TAYLOR if source.taylor and rtol < source.taylor_below else EXPLICIT
+
+
+def lacks_series(source: KernelSource, rtol: float) -> bool:
+    """Return whether `auto` integrates by Taylor series at a tolerance, but the library of the scene has none.
+
+    The variant TAYLOR of the scene has them.
+    """
+    return not source.taylor and rtol < source.taylor_below
 
 
 def uses_series(source: KernelSource, method: str, rtol: float) -> bool:

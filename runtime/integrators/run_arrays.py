@@ -156,8 +156,8 @@ def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
 def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str, Field]]:
     """Return type, shape and initial value of the other arrays of a single run, by name: inputs, then samples.
 
-    Samples begin with the contact codes, which are zero. Names are those of C's struct Batch; `latched` has the
-    discrete states of each sample, `least` L and L/S of `adaptive.compute_tolerances`.
+    Samples begin with the contact codes, which are zero. Names are those of C's struct Batch; `discrete_states` has
+    those of each sample, `min_size` L and L/S of `adaptive.compute_tolerances`.
     """
     N = sizes.n_samples
     inputs: dict[str, Field] = {

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES, TAYLOR
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.files.free_space import check_memory
 from gudgeon.integrators import adaptive, kinematic, single_run
@@ -18,6 +18,7 @@ from gudgeon.integrators.batch import PythonLoop
 from gudgeon.integrators.peers import driver
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.argument_checks import check_flag, check_text, is_integer, shorten_value
+from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
@@ -62,7 +63,9 @@ def check_run_settings(
     """
     flags = check_flag(horizon, "horizon"), check_flag(stop, "stop"), parse_audit_level(audit)
     check_text(method, "method")
-    if (method in driver.NAMES and source.formulation != "full") or find_required_variant(source, method):
+    if (method in driver.NAMES and source.formulation != "full") or find_required_variant(
+        source, method, rtol, has_step
+    ):
         return RunSettings(True, method, math.nan, *flags)
     if source.degrees_of_freedom < 0:  # `simulate` names the joints that contradict each other
         return RunSettings(False, "", math.nan, *flags)
@@ -216,13 +219,18 @@ def _check_duration(message_prefix: str, t0: float, end: float, min_roundings: i
         )
 
 
-def find_required_variant(source: KernelSource, method: str) -> str:
+def find_required_variant(source: KernelSource, method: str, rtol: float | str | None, has_step: bool) -> str:
     """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method.
 
-    The variant is STAGES for methods with implicit stages, or the name of a Taylor method.
+    The variant is STAGES for methods with implicit stages, or the name of a Taylor method. "auto" needs the latter at
+    tolerances at which it integrates by series, without a fixed step. Without a compiler, it uses the methods of the
+    library. Raises BadValueError for such a run with an invalid `rtol`.
     """
     if method in STAGED:
         return "" if source.stages or source.reason_without_jacobian else STAGES
+    if method == "auto" and source.taylor_below and not source.taylor and not has_step:
+        is_missing = adaptive.lacks_series(source, adaptive.parse_tolerance(rtol, ADAPTIVE, False)) and has_compiler()
+        return TAYLOR if is_missing else ""
     return method if method in SMOOTH and not source.taylor else ""
 
 

@@ -109,4 +109,4 @@ def load_bytes(
     loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
     compiled = CompiledModel(source, library, portable, data.decode())
     check_reference_values(compiled)
-    return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)
+    return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading, quick=quick)

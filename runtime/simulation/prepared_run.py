@@ -78,8 +78,11 @@ class RunSetup:
 
         Waits until the optimized library of the scene is compiled. `fixed` None: no fixed parameters.
         """
-        scene = simulation.of_method(check_text(settings["method"], "method"))
-        source, step = scene.source, settings["step"]
+        step = settings["step"]
+        scene = simulation.of_method(
+            check_text(settings["method"], "method"), rtol=settings["rtol"], has_step=step is not None
+        )
+        source = scene.source
         method = select_method(source, settings["method"], step is not None)
         checked_names, constants = check_parameter_names(names, fixed)
         scene.compiled.lib.wait_for_optimized_library()

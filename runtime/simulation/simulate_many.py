@@ -98,7 +98,7 @@ def simulate_many(
     BadValueError for arguments that no run can use.
     """
     method, progress = check_text(method, "method"), check_callable(progress, "progress")
-    simulation = simulation.of_method(method, progress)
+    simulation = simulation.of_method(method, progress, rtol, step is not None)
     compiled, source = simulation.compiled, simulation.source
     names, against = check_requested_peaks(source, peaks), check_compared_scene(source, against)
     run_arguments = BatchArguments(compiled, t_end, output, step)

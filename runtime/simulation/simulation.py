@@ -74,8 +74,10 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         *,
         overrides: Mapping[str, Any] | None = None,
         loading: Loading | None = None,
+        quick: bool = False,
     ) -> None:
         self.compiled, self.source, self.file = compiled, compiled.source, Path(file)
+        self._quick = quick  # whether variants may start with an unoptimized library
         self.loading = loading  # where the kernels came from, and how long it took
         self._overrides = dict(overrides or {})
         self._model: Model | None = None
@@ -112,36 +114,47 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         """
         return self if self.source.formulation == "full" else self._load_variant("full")
 
-    def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
+    def of_method(
+        self,
+        method: str,
+        progress: Progress | None = None,
+        rtol: float | str | None = None,
+        has_step: bool = False,
+    ) -> Simulation:
         """Return the variant of the scene that an integration method needs; the simulation itself if it fits.
 
-        Cross-checks ("scipy:…", "sundials:…") need the full formulation, `taylor` the series, `rodas5p` and others the
-        stages. A variant is derived at its first use and cached; before the full one, `progress` is called once. Raises
-        BadValueError where the motion is not smooth, InputError as `full`. `progress` None: nothing is reported.
+        Cross-checks ("scipy:…", "sundials:…") need the full formulation, `taylor` the series, `radau5` and `radau9` the
+        stages. `auto` needs the series at some tolerances `rtol`, unless a step is given (`has_step`). A variant is
+        derived at its first use and cached: for `auto` from the text that was loaded, else from the file. Before the
+        full one, `progress` is called once. Raises BadValueError where the motion is not smooth, InputError as `full`.
+        `progress` None: nothing is reported.
         """
         if method in python_driver.NAMES:
             if progress and "full" not in {*self._variants, self.source.formulation}:
                 progress(0.0, "deriving the full formulation")
             return self.full
-        formulation = find_required_variant(self.source, method)
-        return self._load_variant(formulation) if formulation else self
+        formulation = find_required_variant(self.source, method, rtol, has_step)
+        text = self.compiled.text if method == "auto" else ""
+        return self._load_variant(formulation, text) if formulation else self
 
-    def _load_variant(self, formulation: str) -> Simulation:
+    def _load_variant(self, formulation: str, text: str = "") -> Simulation:
         """Return the scene loaded in another formulation or variant, with the same overrides; each is loaded once and
         cached.
 
-        Raises InputError if the file, a table or a law changed after loading.
+        `text`: of the mechanism's file; "" reads the file, and raises InputError if it, a table or a law changed after
+        loading.
         """
         from gudgeon.simulation.from_file import load_bytes
 
         if formulation not in self._variants:
             self._variants[formulation] = load_bytes(
-                self._read_unchanged_file(),
+                text.encode() if text else self._read_unchanged_file(),
                 self.file,
                 self.source.scene,
                 formulation=formulation,
                 overrides=self._overrides,
                 portable=self.compiled.portable,
+                quick=self._quick,
             )
         return self._variants[formulation]
 
@@ -288,7 +301,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         progress = check_callable(progress, "progress")
         settings = check_run_settings(self.source, method, rtol, step is not None, horizon, stop, audit)
         if settings.needs_variant:
-            return self.of_method(method, progress).simulate(
+            return self.of_method(method, progress, rtol, step is not None).simulate(
                 t_end,
                 output=output,
                 method=method,

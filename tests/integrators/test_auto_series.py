@@ -12,7 +12,11 @@ import pytest
 import gudgeon
 from gudgeon.contract.methods import EXPLICIT, STIFF, TAYLOR
 from gudgeon.exchange.fmu import _format_header
-from gudgeon.integrators.adaptive import select_first_method
+from gudgeon.generator.kernels.taylor import predict_tolerance
+from gudgeon.integrators.adaptive import RTOL, select_first_method
+from gudgeon.loading.shipped import find_shipped_file
+from gudgeon.simulation import arguments
+from gudgeon.simulation.arguments import find_required_variant
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import build_description
 from tests.integrators.test_methods import scene_of
@@ -65,15 +69,53 @@ def test_no_less_accurate_than_dop853(load: Callable[[], Simulation], rtol: floa
 
 
 def test_the_method_follows_from_scene_and_tolerance() -> None:
-    """Of loops, contacts, films and larger linkages none has the series; the other formulation has none either."""
+    """Contacts, films and jumps have no series; larger scenes have none in their library; nor has the full one."""
     double = load_double_pendulum()
     assert [select_first_method(double.source, rtol) for rtol in (1e-3, 1e-8)] == [EXPLICIT, TAYLOR]
-    others = [("andrews_squeezer", "ideal"), ("slider_crank", "dry"), ("belt_block", "ideal"), ("car_axis", "ideal")]
-    for name, scene in others:
+    for name, scene in [("slider_crank", "dry"), ("belt_block", "ideal"), ("shaker", "ideal")]:
         source = scene_of(name, scene).source
-        assert not source.taylor and select_first_method(source, 1e-12) == EXPLICIT
+        assert not source.taylor and source.taylor_below == 0.0 and select_first_method(source, 1e-12) == EXPLICIT
+    squeezer = scene_of("andrews_squeezer", "ideal").source
+    assert not squeezer.taylor and 1e-12 < squeezer.taylor_below < RTOL
+    assert [find_required_variant(squeezer, "auto", rtol, False) for rtol in (None, "1e-8", 1e-12)] == ["", "", TAYLOR]
+    assert find_required_variant(squeezer, "auto", 1e-12, True) == ""
     assert select_first_method(double.full.source, 1e-12) == EXPLICIT
     assert double.of_method("taylor") is double
+
+
+def test_the_prediction_is_monotone() -> None:
+    """Tighter tolerances never return to dop853; more operations and closures never extend the use of series."""
+    for n_rows in (0, 1, 6):
+        limits = [predict_tolerance(n, n_rows, False) for n in (0, 30, 80, 160, 400, 1200, 10**5)]
+        assert limits == sorted(limits, reverse=True) and limits[-1] == 0.0
+        assert all(predict_tolerance(n, n_rows, True) >= predict_tolerance(n, n_rows, False) for n in (30, 160))
+
+
+def test_tight_tolerances_load_the_series_on_request(tmp_path: Path, at_once: Seen) -> None:  # noqa: F811
+    """Single runs, batches and prepared calls have the same bits; the file is not needed after loading."""
+    file = tmp_path / "spring.yaml"
+    file.write_bytes(find_shipped_file("slider_crank_spring").read_bytes())
+    spring, rtol = gudgeon.load(file), 1e-11
+    file.unlink()
+    assert spring.simulate(0.1, output=1).diagnostics.method == EXPLICIT
+    name = next(name for name in spring.source.slot_index if name.endswith(".mass"))
+    mass = spring.source.slots[spring.source.slot_index[name]].default
+    batch, singly = both(spring, {name: np.linspace(mass, 1.2 * mass, COUNT)}, 0.2, rtol=rtol)
+    assert_same_batches(batch, singly)
+    assert len(at_once.used) >= COUNT
+    run = spring.simulate(0.2, output=7, rtol=rtol, parameters={name: mass})
+    assert run.diagnostics.method == TAYLOR
+    assert_same(batch[0], run)
+    series = "rod.theta"
+    assert spring.prepare(name, [series], t_end=0.2, output=7, rtol=rtol)([mass])[0].tobytes() == run[series].tobytes()
+    exact = spring.simulate(0.2, output=7, method="dop853", rtol=1e-13, parameters={name: mass})
+    assert abs(run.q - exact.q).max() < 1e-9
+
+
+def test_without_a_compiler_the_library_decides(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(arguments, "has_compiler", lambda: False)
+    squeezer = scene_of("andrews_squeezer", "ideal").source
+    assert find_required_variant(squeezer, "auto", 1e-12, False) == ""
 
 
 def test_a_stiff_motion_is_left_to_the_stiff_method(damped: Simulation) -> None:

@@ -324,3 +324,28 @@ def test_symmetric_starts_in_lanes(links: Links, at_once: Seen) -> None:
     """A step that its defect refuses is made once more there as well, with the same bits."""
     for rtol in (1e-2, 1e-4, 1e-9):
         assert_same_in_lanes(links(1), {"bodies.L0.mass": np.linspace(0.8, 1.2, COUNT)}, 1.5, at_once, rtol=rtol)
+
+
+PULSE = """\
+format: gudgeon/1
+name: struck
+parameters: {kick: 0.5 N*m*s, width: 5 ms, middle: 3.3 s}
+ground: {O: [0, 0]}
+bodies:
+  L0: {length: 1 m, mass: 1 kg, inertia: 0.1 kg*m^2, com: [0, 0]}
+joints:
+  J0: {revolute: [ground.O, L0.origin]}
+forces:
+  strike: {torque: L0, value: kick / (width * sqrt(pi)) * exp(-((t - middle) / width)**2)}
+start: {set: {L0.theta: 0}, rates: {L0.omega: 0}}
+"""
+
+
+@pytest.mark.parametrize("method", ["taylor", "auto", "dop853"])
+def test_a_pulse_within_a_long_rest_is_not_missed(method: str, tmp_path: Path) -> None:
+    """The series at rest is zero; the impulse of the torque is `kick`, so that omega is kick / inertia after it."""
+    file = tmp_path / "struck.yaml"
+    file.write_text(PULSE, encoding="utf-8")
+    run = gudgeon.load(file).simulate(10.0, output=10, method=method, rtol=1e-9)
+    assert run["L0.omega"][-1] == pytest.approx(5.0, rel=1e-8)
+    assert run["L0.theta"][-1] == pytest.approx(5.0 * (10.0 - 3.3), rel=1e-8)

@@ -45,6 +45,7 @@
 #define GUESSED_POINTS 0        /* 1: some guesses are coordinates of points */
 #define N_SET 2                 /* coordinates that the start sets */
 #define N_RATES 2               /* velocities that the start sets */
+#define TAYLOR 64               /* products of the Taylor series of the motion */
 
 /* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* if it depends on others */

@@ -68,7 +68,7 @@ def emit_scene(program: Program, on_part_printed: PartCallback | None = None) ->
         }
     files[readme.NAME] = readme.print_readme(program, files)
     described = describe_program(program, files, () if CURVES in files else tuple(parts))
-    return replace(described, taylor=taylor.FILE, taylor_below=program.taylor_below) if series else described
+    return replace(described, taylor=taylor.FILE if series else "", taylor_below=program.taylor_below)
 
 
 def describe_program(
