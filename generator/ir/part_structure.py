@@ -107,14 +107,14 @@ def find_part_structure(part: Kernel) -> PartStructure | None:
     return PartStructure(key, tuple(finder.number_by_operand))
 
 
-def _is_parameter_field(place: Place) -> bool:
+def _is_parameter_member(place: Place) -> bool:
     """Return whether a place is a parameter of the run that is not an array."""
     return place.is_parameter and len(place.path) == 1
 
 
 def _mark_place(place: Place, k: int) -> Place:
     """Return operand k, a storage location, with marks in place of its indices, or of its parameter."""
-    if _is_parameter_field(place):
+    if _is_parameter_member(place):
         return replace(place, path=(format_parameter_mark(_compute_mark(k)),))
     steps = (_compute_mark(k, j) if isinstance(step, int) else step for j, step in enumerate(place.path))
     return replace(place, path=tuple(steps))
@@ -160,7 +160,7 @@ class _StructureFinder:
         """Return the structure of a storage location: its path without indices, and without a parameter's name."""
         if not place.path:
             return type(place), self._describe_key(place.base)
-        steps = () if _is_parameter_field(place) else tuple(x if isinstance(x, str) else None for x in place.path)
+        steps = () if _is_parameter_member(place) else tuple(x if isinstance(x, str) else None for x in place.path)
         return self._number(place), type(place), place.base, steps
 
     def _describe_value(self, value: object) -> Hashable:

@@ -113,7 +113,7 @@ def _predict_ratios(exponent: int, n_operations: int, n_rows: int, has_pulses: b
 
     The first is that of single runs, the second that of eight lanes. Other arguments as in `predict_tolerance`.
     """
-    order = math.ceil(1.0 + TAYLOR_EFFORT * (exponent * math.log(10.0) + math.log(TAYLOR_STRICTNESS)))
+    order = math.ceil(1.0 + TAYLOR_ORDERS_PER_E_FOLD * (exponent * math.log(10.0) + math.log(TAYLOR_TOLERANCE_RATIO)))
     length_ratio = STEP_LENGTH_RATIO * 10.0 ** (STEP_LENGTH_GROWTH * (exponent - MIN_TOL_EXPONENT))
     length_ratio *= PULSES_LENGTH_FACTOR if has_pulses else 1.0
     series = SERIES_STEP + SERIES_CLOSURE * n_rows + order * (SERIES_ORDER + SERIES_OPERATION * n_operations)
