@@ -7,7 +7,7 @@
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.cancellation = &run->cancellation, DEFAULT_PIVOT_LIMITS};
+    const DiscreteState discrete = {.token = &run->cancellation, DEFAULT_PIVOT_LIMITS};
     const int status = dynamics(get_time_after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }

@@ -9,7 +9,7 @@
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.cancellation = &run->cancellation};
+    const DiscreteState discrete = {.token = &run->cancellation};
     const int status =
         reduced_dynamics(get_time_after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
@@ -144,7 +144,6 @@ static int initialize_position(KinematicRun *run, double t, const double *q, con
         position->s_second[k] = 0.0;
     position->phi = position->phi_dot = 0.0;
     const int status =
-        dynamics(t, q, v, &(DiscreteState){.cancellation = &run->cancellation, DEFAULT_PIVOT_LIMITS}, p, position->a,
-            &rhs);
+        dynamics(t, q, v, &(DiscreteState){.token = &run->cancellation, DEFAULT_PIVOT_LIMITS}, p, position->a, &rhs);
     return status > 0 ? N_LOOPS + status : status;
 }

@@ -101,7 +101,7 @@ static int continue_motion(
     for (int pass = -N_WIDE_PASSES; pass < N_NARROW_PASSES; pass++) {
         const double node_angle =
             pass < 0 ? WIDE_NODE_ANGLE * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_ANGLE * ldexp(1.0, pass);
-        int status = discrete->cancellation && poll_cancellation(discrete->cancellation) ? STOPPED : 0;
+        int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
         *interpolated_motion = (ContinuedMotion){0};
         for (int k = 1; k <= N_SIDE_NODES && !status; k++)
             for (int sign = -1; sign <= 1 && !status; sign += 2) {

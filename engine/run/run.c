@@ -305,7 +305,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     *run = (Integrator){.t = t};
     convert_from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
     read_discrete_state(discrete, &run->discrete);
-    run->discrete.cancellation = &run->cancellation;
+    run->discrete.token = &run->cancellation;
     if (HAS_CONTINUATION)
         run->discrete.min_pivot = run->discrete.min_pivot_size = NEAR_SINGULAR_PIVOT;
     for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no internal states yet */

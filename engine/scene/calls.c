@@ -76,7 +76,7 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
     for (int i = 0; i < N_USER_EVENTS; i++)
         discrete->event_sign[i] = 0;
     discrete->is_frozen = 0;
-    discrete->cancellation = NULL;
+    discrete->token = NULL;
     discrete->min_pivot = NEARLY_SINGULAR;
     discrete->min_pivot_size = VANISHING;
 }

@@ -331,7 +331,7 @@ int solve_dependent_equations(double t, const double *q, const Parameters *p, co
     int status = pivot;
     for (int pass = 0; workspace && status && pass < 2; pass++) {
         initialize_workspace(workspace, t, q, p, force, rhs);
-        workspace->cancellation = discrete->cancellation;
+        workspace->cancellation = discrete->token;
         status = solve_independent_equations(workspace, pivot_tols_squared[pass], tolerances[pass], lambda);
         if (status == STOPPED)
             break;

@@ -102,7 +102,7 @@ typedef struct {
     double branch[AT_LEAST_ONE(N_SWITCHES)];
     signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* last sign of each user event; 0: none yet */
     int is_frozen;
-    Cancellation *cancellation; /* NULL: no cancellation */
+    Cancellation *token; /* NULL: no cancellation */
     int singular_policy;                  /* policy near a singular position, one of those below */
     double min_pivot, min_pivot_size; /* fraction of a pivot, of one or two equations, below which they are dependent */
 #if N_DEPENDENT

@@ -52,17 +52,17 @@ int main(void)
     CHECK(run.counts.steps == 1 && run.counts.stiff_steps == 1 && run.counts.evaluations == 3);
 
     /* a request to stop: nobody asks at first, then it counts unless what is under way comes to its end */
-    Cancellation cancellation;
-    start_polling(&cancellation, answer, &stop, 0.0);
+    Cancellation token;
+    start_polling(&token, answer, &stop, 0.0);
     for (int k = 0; k < 1000; k++)
-        CHECK(!is_cancelled(&cancellation));
+        CHECK(!is_cancelled(&token));
     CHECK(cancellation > 0 && cancellation <= 1000);
     stop = 1;
-    defer_stop(&cancellation);
+    defer_stop(&token);
     for (int k = 0; k < 1000; k++)
-        CHECK(!is_cancelled(&cancellation));
+        CHECK(!is_cancelled(&token));
     CHECK(token.stop);
-    allow_stop(&cancellation);
-    CHECK(is_cancelled(&cancellation));
+    allow_stop(&token);
+    CHECK(is_cancelled(&token));
     return failures;
 }
