@@ -18,7 +18,7 @@ static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 {
     if (batch->is_stop_requested) {
         start_polling(cancellation, batch->is_stop_requested, batch->context, batch->poll_interval);
-        cancellation->next_poll = read_clock() + batch->poll_interval;
+        skip_first_poll(cancellation);
     } else
         start_polling(cancellation, is_batch_ending, (void *)batch, POLL_INTERVAL_S);
 }
