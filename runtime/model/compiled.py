@@ -244,7 +244,8 @@ class CompiledModel:
         `size` of the mechanism (m) scales lengths against angles. runtime/assembly/start.py treats the other cases.
         """
         n, values = self.n, np.empty(2 * self.n + 1)
-        arguments, q = (check_time(t), self._get_parameter_pointer(p), size), self._get_output_pointer(values)
+        arguments = check_time(t), self._get_parameter_pointer(p), check_number(size, "size")
+        q = self._get_output_pointer(values)
         if self.lib.gudgeon_start(*arguments, q, q + n, q + 2 * n):
             return None
         return values[:n], values[n : 2 * n], values.item(2 * n)
