@@ -10,7 +10,7 @@
 static int is_batch_ending(void *context) { return *((const Batch *)context)->ending; }
 
 /*
- * Start the polling of a run's cancellation token. A callback of the batch is called every batch->poll_interval seconds,
+ * Start the polling of a run's cancellation token. A callback of the batch is called every batch->poll_interval s,
  * first after that interval, because the caller polls before it calls C. Without a callback, the token asks every
  * POLL_INTERVAL_S whether the batch is ending.
  */
