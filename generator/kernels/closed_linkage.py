@@ -1,4 +1,4 @@
-"""Kernels of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the initial values, the parameter table.
+"""Kernels of the closed linkage (every joint without play): constraints, mass matrix, start, parameters.
 
 A kernel is a function as statements (ir/kernels.py), which the targets print as C, NumPy and JavaScript.
 """
