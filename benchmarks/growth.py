@@ -30,6 +30,7 @@ from gudgeon.loading.build import compile_kernels
 from gudgeon.mechanisms.n_four_bar import text as four_bars_text
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.waiting.imports import pause_garbage_collector
 
 FOLDER = Path(__file__).resolve().parent
 CSV, PAGE, FIGURE = FOLDER / "scaling.csv", FOLDER.parent / "docs" / "scaling.md", FOLDER / "figures" / "scaling.png"
@@ -95,11 +96,12 @@ def measure(family: str, n: int, folder: Path) -> Size:
     data = text_of(family, n).encode()
     file.write_bytes(data)
     clear_cache()
-    begin = processor_time()
-    model = derive_scene(data, file.name, "ideal")
-    derived = processor_time()
-    source = generate_c(model, "reduced")
-    emitted = processor_time()
+    with pause_garbage_collector():  # as in a load
+        begin = processor_time()
+        model = derive_scene(data, file.name, "ideal")
+        derived = processor_time()
+        source = generate_c(model, "reduced")
+        emitted = processor_time()
     library = compile_kernels(source, rebuild=True)
     compiled = processor_time()
     simulation = Simulation(CompiledModel(source, library), file)

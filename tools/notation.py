@@ -37,18 +37,23 @@ is Chen, Gao and Wang (2022).
 
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
-- The sign – marks a quantity without a name in that place. [The last table](#other-symbols-of-the-equations) lists the
-  symbols of intermediate and general quantities.
+- The sign – in a column marks a quantity that has no name there.
+  [The last table](#other-symbols-of-the-equations) lists the symbols of intermediate and general quantities.
 - Bold letters are vectors. In each table, a symbol stands for one quantity.
-- Within one law, each symbol stands for one quantity. The equation of each law defines its $K$, $S$ and $v_0$.
-- The letter $c$ is the clearance of a joint: radial in a bearing, on each side in a guide.
-- All names in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is $-F_n$.
-  The attribute `F_n` of a joint in the NumPy functions (`equations.dynamics`) is $-F_n$ too.
-- Some names in C differ from the term of their quantity: see [the table](#names-in-c-that-differ-from-the-term).
-- `make tables` writes this page from the declarations. A test compares it with the symbols of physics.
+- Within one force law, each symbol stands for one quantity. The equation of each law defines its contact stiffness $K$,
+  its film factor $S$ and its characteristic slip $v_0$.
+- The letter $c$ is the clearance of a joint: the radial clearance of a bearing, or the gap on each side of a guide.
+- All variables in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is
+  $-F_n$, where $F_n$ is the normal force. The attribute `F_n` of a joint in the NumPy functions (`equations.dynamics`)
+  is $-F_n$ too.
+- Some names in C differ from the term of their quantity: see
+  [the table of these names](#names-in-c-that-differ-from-the-term).
+- `make tables` writes this page from the declarations in the code. A test compares the page with the symbols of
+  [physics](physics.md).
 
 Example: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
-`rhs->clearance[i]` in C. It is positive if the journal's surface moves along $\\mathbf t$ relative to the bearing's.
+`rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
+relative to the bearing's.
 """
 NONE = "–"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
@@ -192,14 +197,19 @@ ENERGY = (
 QUANTITIES = (  # heading, text above the table, rows of symbol, quantity, Python, C, unit
     (
         "Impacts and closed contacts of rigid surfaces",
-        "The names in C are those of `engine/run/impacts.c` and `engine/run/frictional_impact.c`.",
+        "The names in C in this table are variables of `engine/run/impacts.c` and `engine/run/frictional_impact.c`.",
         IMPACTS,
     ),
-    ("Mixed lubrication", "The roughness $\\sigma_r$ is in the table of the laws.", MIXED),
-    ("Wear", "In Python, `worn` is what `gudgeon.wear` returns.", WEAR),
+    (
+        "Mixed lubrication",
+        "The combined roughness $\\sigma_r$ is in the table of the [parameters of the laws](#parameters-of-the-laws).",
+        MIXED,
+    ),
+    ("Wear", "In the column Python, `worn` is the object that the function `gudgeon.wear` returns.", WEAR),
     (
         "Energy",
-        "In C, `energy` is an argument of the function `outputs`, and `y` is the state that the integrator advances.",
+        "In the column C, `energy` is an argument of the function `outputs`, and `y` is the state that the integrator\n"
+        "advances.",
         ENERGY,
     ),
 )
@@ -319,7 +329,8 @@ def make_notation_page() -> str:
     head = ("symbol", "quantity", "in the paper", "YAML", "Python", "C", "unit")
     lines = [LEAD, "## Equations of motion", ""]
     lines += [
-        "In Python, `run` is a result, `equations` is `simulation.model.numpy()`, and `p` is `equations.prepare()`.",
+        "In the column Python, `run` is the result of `simulate`, `equations` is `simulation.model.numpy()` of the",
+        "loaded mechanism `simulation`, and `p` is `equations.prepare()`.",
         "",
     ]
     lines += _format_table(head, ((f"${row[0]}$", row[1], f"${row[2]}$" * bool(row[2]), *row[3:]) for row in SYSTEM))
@@ -328,12 +339,15 @@ def make_notation_page() -> str:
         "## A joint with play",
         "",
         "The unit vector $\\mathbf n$ points from the centre of the bearing to the centre of the journal.",
-        "The unit vector $\\mathbf t$ is $\\mathbf n$ turned by +90°. The forces act on the journal.",
-        "In a guide, `JOINT` is a corner, such as `guide.front_upper`. The corner then replaces the journal, and its",
-        "wall replaces the bearing. The series `ex` and `ey` of a corner are the components of $e\\,\\mathbf n$.",
+        "The unit vector $\\mathbf t$ is $\\mathbf n$ turned by +90°. The forces $F_n$ and $F_t$ in the table act on",
+        "the journal.",
+        "",
+        "In a guide, `JOINT` is a corner, such as `guide.front_upper`. The corner of the slider then replaces the",
+        "journal, and the wall of the guide replaces the bearing. The series `ex` and `ey` of a corner are the",
+        "components of $e\\,\\mathbf n$.",
         "",
         'In Python, `run["JOINT.delta"]` returns a series. In C, the structure `rhs->clearance[i]` contains the',
-        "quantities of the first table. Those of the second table are local variables.",
+        "quantities of the first table below. Quantities of the second table are local variables in C.",
         "",
     ]
     lines += _format_table(head, _iterate_play_rows())
@@ -359,18 +373,18 @@ def make_notation_page() -> str:
     for title, path, record in SECTIONS:
         lines += ["", f"### {title}", "", *_format_table(parameter_head, _iterate_record_rows(path, record))]
     lines += ["", "## Parameters of the laws", ""]
-    lines += ["[Laws](laws.md) gives the equations.", ""]
+    lines += ["The table lists the parameters of all force laws. [Laws](laws.md) gives the equations of the laws.", ""]
     lines += _format_table(("symbol", "quantity", "laws", "YAML and Python", "C", "unit"), _iterate_law_rows())
     lines += [
         "",
         "## Derived quantities of the laws",
         "",
-        "A derived quantity has no key in YAML. The column C gives the name of the argument or local variable in the",
-        "function of the law. Such a name is valid in that function only: `q` and `x` of `finite_length` are not",
-        "coordinates.",
+        "A derived quantity of a force law has no key in YAML. The column C gives the name of an argument or local",
+        "variable in the function of the law. The name is valid in that function only: for example, `q` and `x` of",
+        "`finite_length` are not coordinates.",
         "",
-        "Quantities that are constant in a run are also members of `struct Parameters`, such as `p->dry_pin_K_` for",
-        "the contact `dry` and the bearing `pin`.",
+        "Derived quantities that are constant in a run are also members of `struct Parameters`, such as",
+        "`p->dry_pin_K_` for the contact `dry` and the bearing `pin`.",
         "",
     ]
     lines += _format_table(("symbol", "quantity", "laws", "C", "unit"), _iterate_derived_rows())
@@ -378,8 +392,8 @@ def make_notation_page() -> str:
         "",
         "## Names in C that differ from the term",
         "",
-        "These names are local variables and members in C. They are short forms, and some of them are also the name",
-        "of another quantity.",
+        "The table lists short names of local variables and members in C. Some of these names are also the name of",
+        "another quantity, which the last column gives.",
         "",
     ]
     c_rows = ((name, f"${symbol}$", *rest) for name, symbol, *rest in C_NAMES)
@@ -388,7 +402,7 @@ def make_notation_page() -> str:
         "",
         "## Other symbols of the equations",
         "",
-        "Most of these symbols stand for intermediate or general quantities.",
+        "Most of the symbols in this table stand for intermediate or general quantities.",
         "The last column is the section of [Physics](physics.md#symbols-and-sign-conventions) that uses the symbol.",
         "",
     ]

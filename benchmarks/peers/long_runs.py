@@ -1,6 +1,7 @@
 """Integrate conservative motion for very long: a pendulum, Andrews' squeezer without torque, a double pendulum.
 
-- *long*: 1e5 periods of 2 s of a pendulum (mechanisms/pendulum.yaml, scene two_seconds), released horizontally;
+- *long*: 1e5 periods of 2 s of a pendulum, released horizontally: a link with its mass at the tip, whose coordinate
+  is the angle as in the equations of the other programs;
 - *turns*: 1e4 turns of the crank of Andrews' squeezer without torque; it begins with CRANK_SPEED and the spring acts;
 - *swings*: 1e4 slow periods of a double pendulum (chain_equations.py) with small, regular motion, before chaos.
 
@@ -30,6 +31,17 @@ TURN = 7.5e-3  # s, about the time of a turn from CRANK_SPEED
 SWING = 2.36  # s, the slow period of small motion
 SMALL = (-0.5 * np.pi + 0.2, -0.5 * np.pi + 0.3)  # rad, start of the double pendulum
 ATOL = 1e-2  # of rtol
+LINK = f"""\
+format: gudgeon/1
+name: link
+gravity: [0, -{GRAVITY!r} m/s^2]
+ground: {{O: [0, 0]}}
+bodies:
+  bob: {{length: 1 m, com: [1 m, 0], mass: 1 kg, inertia: 0}}
+joints:
+  pin: {{revolute: [ground.O, bob.tail]}}
+start: {{set: {{bob.theta: 0}}, rates: {{bob.omega: 0}}}}
+"""
 
 
 def times(work: str) -> np.ndarray:
@@ -84,20 +96,23 @@ def loaded(work: str, taylor: bool) -> Any:
     """Return gudgeon's compiled scene."""
     if work == "swings":
         return chains.loaded(2, taylor, SMALL)
-    if work == "long":
-        simulation = own_scenes.load("pendulum", "two_seconds")
+    text = LINK if work == "long" else write_free_squeezer()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, f"{work}.yaml")
+        file.write_text(text, encoding="utf-8")
+        simulation = own_scenes.load(file)
         return simulation.of_method("taylor") if taylor else simulation
+
+
+def write_free_squeezer() -> str:
+    """Return Andrews' squeezer as a mechanism file, without torque and with CRANK_SPEED at the start."""
     text = find_shipped_file("andrews_squeezer").read_text(encoding="utf-8")
     motor = "  motor: {torque: OF, value: 0.033 N*m}\n"
     guess = "  guess:\n"
     if motor not in text or guess not in text:
         raise ValueError("andrews_squeezer.yaml has no motor or guess where it is expected")
     text = text.replace(motor, "").replace(guess, f"  rates: {{OF.omega: {CRANK_SPEED} rad/s}}\n{guess}", 1)
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "free_squeezer.yaml")
-        file.write_text(text.replace("name: andrews_squeezer", "name: free_squeezer", 1), encoding="utf-8")
-        simulation = own_scenes.load(file)
-        return simulation.of_method("taylor") if taylor else simulation
+    return text.replace("name: andrews_squeezer", "name: free_squeezer", 1)
 
 
 def own(work: str, method: str, rtol: float) -> Measured:
@@ -113,8 +128,7 @@ def own(work: str, method: str, rtol: float) -> Measured:
 def own_states(work: str, run: Any) -> np.ndarray:
     """Return angles and velocities (N, 2n) as in `start`."""
     if work == "long":
-        x, y, vx, vy = (run[f"bob.{name}"] for name in ("x", "y", "vx", "vy"))
-        return np.stack([np.arctan2(x, -y), (y * -vx + x * vy) / (x * x + y * y)], axis=1)
+        return np.stack([run["bob.theta"] + 0.5 * np.pi, run["bob.omega"]], axis=1)
     if work == "swings":
         return np.concatenate([run.q[:, 2::3], run.v[:, 2::3]], axis=1)
     bodies = (("OF", ""), ("FE", "OF"), ("BDE", ""), ("EG", "AG"), ("AG", ""), ("HE", "AH"), ("AH", ""))

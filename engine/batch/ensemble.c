@@ -10,15 +10,15 @@
 static int is_batch_ending(void *context) { return *((const Batch *)context)->ending; }
 
 /*
- * Start the polling of a run's cancellation token: by the callback of the batch every batch->poll_interval seconds, for the
- * first time after that interval, because the caller polls before it calls C; if it has no callback, every
+ * Start the polling of a run's cancellation token. A callback of the batch is called every batch->poll_interval seconds,
+ * first after that interval, because the caller polls before it calls C. Without a callback, the token asks every
  * POLL_INTERVAL_S whether the batch is ending.
  */
 static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 {
     if (batch->is_stop_requested) {
         start_polling(cancellation, batch->is_stop_requested, batch->context, batch->poll_interval);
-        cancellation->next_poll = read_clock() + batch->poll_interval;
+        skip_first_poll(cancellation);
     } else
         start_polling(cancellation, is_batch_ending, (void *)batch, POLL_INTERVAL_S);
 }

@@ -380,9 +380,9 @@ static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
 /*
  * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
  * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
- * AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force exceeds its
- * static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with check_rigid_forces(), and
- * omitted at the same times.
+ * AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force
+ * exceeds its static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with
+ * check_rigid_forces(), and omitted at the same times.
  */
 static void check_friction_modes(Integrator *run, double t, const RhsOutputs *rhs)
 {

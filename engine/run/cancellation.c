@@ -58,6 +58,12 @@ void start_polling(Cancellation *cancellation, int (*is_stop_requested)(void *),
         .is_stop_requested = is_stop_requested, .context = context, .poll_interval = poll_interval};
 }
 
+/* Poll for the first time after a whole polling interval. Called if the caller has just polled. */
+void skip_first_poll(Cancellation *cancellation)
+{
+    cancellation->next_poll = read_clock() + cancellation->poll_interval;
+}
+
 /*
  * Return the estimated number of steps from t to t_end (s), if each MONITOR_STEPS steps gain as much time as the last
  * ones.

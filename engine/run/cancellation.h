@@ -24,6 +24,7 @@ typedef struct {
 
 double read_clock(void);
 void start_polling(Cancellation *cancellation, int (*is_stop_requested)(void *), void *context, double poll_interval);
+void skip_first_poll(Cancellation *cancellation);
 int detect_stall(ProgressMonitor *monitor, double t, double t_end);
 long count_steps_before_check(const ProgressMonitor *monitor);
 

@@ -400,7 +400,7 @@ class _TrajectoryParts:
         """Copy the rows of the run, so that its fields are not views of the arrays of a batch."""
         x, k, i = self.arrays, self.k, self.i
         self.arrays = {name: x[name][k : k + 1, : self.n_samples].copy() for name in ("y", "discrete_states", "state")}
-        names = "peaks", "counts", "residuals", "audited", "audited_t", "audited_where"
+        names = "peaks", "counts", "residuals", "audit_values", "audit_times", "audit_locations"
         self.arrays |= {name: x[name][i : i + 1].copy() for name in names}
         self.k = self.i = 0
 

@@ -249,3 +249,29 @@ def compute_generator_hash(package: Path = PACKAGE) -> str:
         for name, data in read_files(package / folder, ".py", ".jinja"):
             parts += [f"{folder}/{name}", data]
     return compute_digest(parts)
+
+
+def read_unchanged_file(source: KernelSource, file: Path) -> bytes:
+    """Return the bytes of the file of a loaded mechanism, from which variants of the scene are derived.
+
+    Raises InputError if the file or one of its tables was edited after loading. The error is also raised if a
+    registered law was replaced or is not registered in this process.
+    """
+    data = read_bytes(file)
+    is_same_file = sha256(data).hexdigest() == source.sha256
+    if not is_same_file or hash_current_tables(source, file) != source.tables:
+        raise InputError(
+            f"{'a table of ' * is_same_file}{file} was edited after it was loaded:"
+            " equations derived from it now would not be those of this simulation",
+            hint="load it again with gudgeon.load(…), or restore the file",
+        )
+    for (name, loaded_key), (_, current_key) in zip(source.laws, list_current_law_keys(source), strict=True):
+        if current_key != loaded_key:
+            difference = "has changed" if current_key else "is not registered in this process"
+            hint = (
+                "register the same law with gudgeon.register"
+                if not current_key
+                else "load the mechanism again with gudgeon.load(…)"
+            )
+            raise InputError(f"the law {name} of this simulation {difference}", hint=hint)
+    return data

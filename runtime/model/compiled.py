@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import CACHED_VALUES, KernelSource
-from gudgeon.errors import SingularError
+from gudgeon.errors import GudgeonError, SingularError
 from gudgeon.language.argument_checks import check_number, check_time
 from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
 from gudgeon.model.choices import fill_in_chosen_values, find_choices
@@ -120,12 +120,25 @@ class CompiledModel:
         return compile_kernels(self.source, portable=self.portable)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the attributes for pickling, without the library, cached values and unused runs."""
+        """Return the attributes for pickling, without the library, cached values and unused runs.
+
+        The added hash identifies the arrays that Python and C exchange in this version.
+        """
+        from gudgeon.loading import declared
+
         left_out = "lib", "ffi", CACHED_VALUES
-        return {name: value for name, value in self.__dict__.items() if name not in left_out} | {"free_runs": {}}
+        attributes = {name: value for name, value in self.__dict__.items() if name not in left_out}
+        return attributes | {"free_runs": {}, "declarations": declared.SHA256}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """Restore the pickled state."""
+        """Restore the pickled state. Raises GudgeonError if a version with other arrays has written it."""
+        from gudgeon.loading import declared
+
+        if state.pop("declarations", "") != declared.SHA256:
+            raise GudgeonError(
+                "this pickle was written by another version of gudgeon\n  repeat the run; files of save() keep results "
+                "across versions"
+            )
         self.__dict__.update(state)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *", is_written: bool = False) -> Any:
@@ -244,7 +257,8 @@ class CompiledModel:
         `size` of the mechanism (m) scales lengths against angles. runtime/assembly/start.py treats the other cases.
         """
         n, values = self.n, np.empty(2 * self.n + 1)
-        arguments, q = (check_time(t), self._get_parameter_pointer(p), size), self._get_output_pointer(values)
+        arguments = check_time(t), self._get_parameter_pointer(p), check_number(size, "size")
+        q = self._get_output_pointer(values)
         if self.lib.gudgeon_start(*arguments, q, q + n, q + 2 * n):
             return None
         return values[:n], values[n : 2 * n], values.item(2 * n)

@@ -29,7 +29,7 @@ from gudgeon.simulation.audit import (
 from gudgeon.simulation.sample_checks import compute_energy_balance
 
 MAX_SAMPLES = FIRST_CHUNK_SAMPLES  # of a short run
-_ARRAYS = ("y", "latched", "p", "audited", "start", "size")  # of a run, that C reads
+_ARRAYS = ("y", "discrete_states", "p", "audit_values", "start", "size")  # of a run, that C reads
 RIGHT_HAND_SIDES = COUNT_NAMES.index("right_hand_sides")  # column of the counts of a run
 
 

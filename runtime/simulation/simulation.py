@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +15,11 @@ from gudgeon.assembly.guess_warnings import warn_guess_deviations
 from gudgeon.assembly.journals import describe_contacts_without_onset
 from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import Start, assemble_start
-from gudgeon.errors import BadValueError, InputError
+from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.argument_checks import check_callable
-from gudgeon.loading.kernel_sources import Loading
+from gudgeon.loading.kernel_sources import Loading, read_unchanged_file
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_sample_memory
@@ -101,7 +100,8 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             import_modules_completely(*GENERATOR)
             from gudgeon.generator.pipeline import derive_scene
 
-            self._model = derive_scene(self._read_unchanged_file(), str(self.file), self.source.scene, self._overrides)
+            data = read_unchanged_file(self.source, self.file)
+            self._model = derive_scene(data, str(self.file), self.source.scene, self._overrides)
         return self._model
 
     @property
@@ -148,7 +148,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
 
         if formulation not in self._variants:
             self._variants[formulation] = load_bytes(
-                text.encode() if text else self._read_unchanged_file(),
+                text.encode() if text else read_unchanged_file(self.source, self.file),
                 self.file,
                 self.source.scene,
                 formulation=formulation,
@@ -163,35 +163,6 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         from gudgeon.web.page import build_page
 
         return build_page(self)
-
-    def _read_unchanged_file(self) -> bytes:
-        """Return the bytes of the mechanism's file, from which variants of the scene are derived.
-
-        Raises InputError if the file or one of its tables was edited after loading. The error is also raised if a
-        registered law was replaced or is not registered in this process.
-        """
-        from gudgeon.loading.kernel_sources import hash_current_tables, list_current_law_keys, read_bytes
-
-        data = read_bytes(self.file)
-        is_same_file = sha256(data).hexdigest() == self.source.sha256
-        if not is_same_file or hash_current_tables(self.source, self.file) != self.source.tables:
-            raise InputError(
-                f"{'a table of ' * is_same_file}{self.file} was edited after it was loaded:"
-                " equations derived from it now would not be those of this simulation",
-                hint="load it again with gudgeon.load(…), or restore the file",
-            )
-        for (name, loaded_key), (_, current_key) in zip(
-            self.source.laws, list_current_law_keys(self.source), strict=True
-        ):
-            if current_key != loaded_key:
-                difference = "has changed" if current_key else "is not registered in this process"
-                hint = (
-                    "register the same law with gudgeon.register"
-                    if not current_key
-                    else "load the mechanism again with gudgeon.load(…)"
-                )
-                raise InputError(f"the law {name} of this simulation {difference}", hint=hint)
-        return data
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the attributes for pickling, without the derived model and the variants."""

@@ -44,7 +44,7 @@ def test_expressions_printed_by_structure_have_the_text_of_direct_printing(print
     texts = set()
     for _ in range(400):
         symbols = [*map(make_real_symbol, NAMES), *map(PlaceSymbol, PLACES)]
-        random.shuffle(symbols)  # type: ignore[arg-type]
+        random.shuffle(symbols)
         expression = make_expression(random, symbols[:4], 3)
         readable = Readable((), {"c10": "c_", "x": Place("p")["x"]})
         assert printer(readable).print_by_structure(expression) == printer(readable)._print(expression)

@@ -18,6 +18,7 @@ import pytest
 import gudgeon
 from gudgeon import errors
 from gudgeon.errors import GudgeonError, InputErrors, Location, SolverError
+from gudgeon.loading import declared
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
@@ -176,3 +177,11 @@ def test_a_library_that_is_not_in_the_cache_there_is_compiled_again(tmp_path: Pa
         check=True,
     )
     assert done.stdout.strip() == run["energy.kinetic"].tobytes().hex()
+
+
+def test_pickles_of_another_version_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    batch = gudgeon.load("bouncing_ball").simulate_many({"bodies.ball.mass": [1.0, 2.0]}, 0.1, output=3)
+    pickled = pickle.dumps(batch)
+    monkeypatch.setattr(declared, "SHA256", "of other declarations")
+    with pytest.raises(GudgeonError, match="written by another version of gudgeon"):
+        pickle.loads(pickled)

@@ -8,6 +8,7 @@ their order stay as they are, so that results are the same bit for bit.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -83,16 +84,18 @@ def _normalize_parts(
 ) -> tuple[list[_NormalizedPart], dict[int, PrintedPart]]:
     """Return the parts in normalized form, and by number those of them that are printed.
 
-    Of several parts with equal structure (ir/part_structure.py) the first is printed; the others differ from it in
-    their operands only, and have its texts.
+    Of MIN_REPETITIONS or more parts with equal structure (ir/part_structure.py) the first is printed; the others differ
+    from it in their operands only, and have its texts.
     """
+    structures = [find_part_structure(part) for part in parts]
+    counts = Counter(structure.key for structure in structures if structure)
     normalized_parts: list[_NormalizedPart] = []
     printed: dict[int, PrintedPart] = {}
     first_by_structure: dict[Hashable, int] = {}
     sources: dict[int, list[int | str]] = {}
-    for k, part in enumerate(parts):
-        structure = find_part_structure(part)
-        first = first_by_structure.setdefault(structure.key, k) if structure else k
+    for k, (part, structure) in enumerate(zip(parts, structures, strict=True)):
+        repeats = structure is not None and counts[structure.key] >= MIN_REPETITIONS
+        first = first_by_structure.setdefault(structure.key, k) if structure and repeats else k
         if structure is None or first == k:
             printed[k] = print_part(part, print_lines)
             normalized_parts.append(_normalize_part(printed[k]))
