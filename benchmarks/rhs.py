@@ -1,4 +1,4 @@
-"""Measure one evaluation of the right-hand side, derived in two formulations and hand-written: time and operations.
+"""Measure one evaluation of the right-hand side, full, reduced and hand-written: time and operations.
 
     python -m benchmarks.rhs                # from the repository's root, with gudgeon installed
     python -m benchmarks.rhs --callgrind    # instructions too, counted by valgrind

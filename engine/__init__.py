@@ -1,1 +1,1 @@
-"""What all scenes share, in plain C: time loops, methods, contacts, events, batches. engine.c lists its parts."""
+"""The C code that all scenes share: time loops, methods, contacts, events, batches. engine.c lists its parts."""

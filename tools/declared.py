@@ -20,7 +20,7 @@ from gudgeon.loading.engine import list_all_declarations
 
 ROOT = Path(__file__).resolve().parent.parent
 BOUNDARY = ROOT / "engine" / "boundary.h"
-HEAD = '''"""What cffi makes of the engine's declarations: written by tools/declared.py (`make generated`)."""
+HEAD = '''"""Declarations of the engine's functions, parsed by cffi: written by tools/declared.py (`make generated`)."""
 
 from _cffi_backend import FFI
 
@@ -75,7 +75,7 @@ def list_column_names(members: dict[str, int]) -> list[str]:
 
 def make_python_boundary() -> str:
     """Return the text of runtime/contract/boundary.py."""
-    lines = ['"""Numbers that the engine shares with Python: written by tools/declared.py (boundary.h)."""', ""]
+    lines = ['"""Constants of engine/boundary.h for Python: written by tools/declared.py."""', ""]
     lines += ["from typing import Final", "", *(f"{name}: Final = {value}" for name, value in read_constants().items())]
     for name, members in read_enumerations().items():
         lines += ["", f"# enum {name}", *(f"{member}: Final = {value}" for member, value in members.items())]
@@ -91,7 +91,7 @@ def make_javascript_boundary() -> str:
 
     It has the names that scripts of the folder use, and counts of columns.
     """
-    lines = ["/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */"]
+    lines = ["/* Constants of engine/boundary.h for JavaScript: written by tools/declared.py. */"]
     lines += ["const Boundary = {"]
     known, web = read_enumerations(), ROOT / "runtime" / "web"
     scripts = "".join(file.read_text(encoding="utf-8") for file in sorted(web.glob("*.js")))

@@ -1,4 +1,6 @@
-"""Integrate hand-written equations of the nine-bar press by the BDF method of CVODE (SUNDIALS) in three ways.
+"""Integrate hand-written equations of the nine-bar press by CVODE (BDF), called from Python or from C.
+
+There are three ways:
 
 - `sundae`: scikit-sundae as its users call it, CVODE's own difference quotients for the Jacobian;
 - `sundae_jacobian`: the same, differences of all 48 columns in C by one call;

@@ -1,4 +1,4 @@
-"""Load the scenes of gudgeon that the race runs, optimized; a measurement of set-up derives and compiles them anew."""
+"""Load gudgeon's scenes for the comparison of docs/race.md, optimized; to measure set-up, derive and compile anew."""
 
 from __future__ import annotations
 

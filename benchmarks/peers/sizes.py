@@ -1,4 +1,4 @@
-"""Hold the lengths of the long problems of the race; a test of the code shortens them."""
+"""Define the durations of the long problems of docs/race.md; a test of the code shortens them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Measure the set-up of an entry of the race in a new process: derivation, compilation, just-in-time code, its model.
+"""Measure the set-up of a solver of docs/race.md in a new process: derivation, compilation, just-in-time code, model.
 
     python -m benchmarks.race.setup WORK ENTRY
 

@@ -1,6 +1,6 @@
 /*
- * Acceptance in the lanes of steps by methods with error control (lane_local_steps.c), while no contact is closed: the
- * tests whether a step needs its run, and all changes that an accepted step makes.
+ * Acceptance in SIMD lanes of steps with error control, while no contact is closed (lane_local_steps.c): tests whether
+ * a step needs the functions for single runs, and all changes that an accepted step makes.
  */
 
 /*

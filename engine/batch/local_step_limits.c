@@ -1,7 +1,7 @@
 /*
- * Limits of the steps that lanes accept for a run without a call (batch/lane_local_steps.c). Such a step changes the
- * state, error weights, peaks, step length and counts of the run, and nothing else. It ends no search, changes no
- * contact, branch or method and leaves the record of the audit as it is.
+ * Limits of the steps that SIMD lanes accept without a call of the functions for single runs (lane_local_steps.c). Such
+ * a step changes the state, error weights, peaks, step length and counts of the run, and nothing else. It ends no
+ * search, changes no contact, branch or method and leaves the record of the audit as it is.
  */
 
 /*

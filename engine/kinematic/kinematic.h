@@ -1,5 +1,5 @@
 /*
- * The memory of a kinematic analysis of one run, and the functions of single runs that SIMD code for several runs
+ * The data of a kinematic analysis of one run, and the functions of single runs that SIMD code for several runs
  * calls. KinematicBatch is declared in scene/calls.h, because Python fills it.
  */
 #ifndef GUDGEON_KINEMATIC_H

@@ -1,4 +1,4 @@
-/* Accelerations in tree coordinates from the equations of all bodies, where a reduced pivot vanishes. */
+/* Accelerations in tree coordinates from the equations of all bodies, where a pivot of the reduced ones vanishes. */
 
 /*
  * Compute tree accelerations a and multipliers of the closures by the equations of all bodies, where a pivot of the

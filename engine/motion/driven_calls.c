@@ -1,4 +1,4 @@
-/* Functions that Python calls to evaluate the motion in tree coordinates, for scenes with driven loops. */
+/* Functions that Python calls to evaluate the motion in tree coordinates, with loops that drives determine. */
 
 /*
  * Build the state `tree`, which the scene's functions read, from the coordinates q and rates v of a call from Python.

@@ -1,4 +1,4 @@
-/* Functions that Python calls to evaluate the motion in tree coordinates, for scenes without driven loops. */
+/* Functions that Python calls to evaluate the motion in tree coordinates, without loops that drives determine. */
 
 /* Compute positions and velocities of all bodies (N_Q each) from tree coordinates q and rates v (N_X each). */
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)

@@ -1,4 +1,4 @@
-/* Stage predictor: states and rates at the starts of this step and the last one, for guesses of implicit stages. */
+/* Stage predictor: states and rates at the starts of this step and the previous one, for guesses of implicit stages. */
 #ifndef GUDGEON_ITERATION_HISTORY_H
 #define GUDGEON_ITERATION_HISTORY_H
 

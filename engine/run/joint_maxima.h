@@ -1,6 +1,6 @@
 /*
- * Peaks of joints with play at accepted states: forces, eccentricities, velocity ratios. Together with run/contacts.c
- * this file owns Contacts (run/run.h).
+ * Peaks of joints with play at accepted states: forces, eccentricities, ratios of penetration rate to approach speed.
+ * Together with run/contacts.c this file owns Contacts (run/run.h).
  */
 
 /* Return the magnitude of the force of a joint with play, N, from its normal and tangential components. */

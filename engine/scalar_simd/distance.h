@@ -1,4 +1,4 @@
-/* Measures of a trial step: its stiffness h rho, and the drift of its end from the constraints before projection. */
+/* Measures of a trial step: its stiffness (length times spectral radius), and its drift from the constraints. */
 #define MAX_CONSTRAINT_DRIFT 10.0 /* tolerances: largest distance of a step's end from the constraint equations */
 #define ROUNDING_DIGITS 1e-10 /* of a coordinate or velocity: changes that may be rounding */
 

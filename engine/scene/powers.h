@@ -1,6 +1,7 @@
 /*
- * Tables of exp, log and pow (functions.h). The test tests/web/test_functions.py recomputes them. log_table, per part
- * of [1, 2): c, and -log c as a multiple of 2^-42 and the rest. exp_table: 2^(j/128) and its relative rounding error.
+ * Tables of constants for exp, log and pow (functions.h). The test tests/web/test_functions.py recomputes them.
+ * log_table, per part of [1, 2): c, and -log c as a multiple of 2^-42 and the rest. exp_table: 2^(j/128) and its
+ * relative rounding error.
  */
 #ifndef GUDGEON_POWERS_H
 #define GUDGEON_POWERS_H

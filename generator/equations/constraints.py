@@ -1,4 +1,4 @@
-"""Constraint equations Φ = 0 of joints and drives, with Φ_q, ν and γ for velocities and accelerations."""
+"""Constraint equations Φ = 0 of joints and drives, with Jacobian Φ_q and the right-hand sides ν, γ of their rates."""
 
 from __future__ import annotations
 

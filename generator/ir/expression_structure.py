@@ -1,4 +1,4 @@
-"""Structure of expressions: all that decides their text, except for the text of their symbols."""
+"""Structure of an expression: everything that determines its printed code except the names of its symbols."""
 
 from __future__ import annotations
 

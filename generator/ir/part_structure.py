@@ -1,4 +1,4 @@
-"""Structure of the parts of a long function: all that decides their text, except for names and operands.
+"""Structure of the parts of a long function: all that determines their code except names and operands.
 
 Parts of equal structure, such as those of equal bars, have the same text but for the names of locals, the indices and
 parameters that they read, and the statuses that they return. A target may print one of them for all.

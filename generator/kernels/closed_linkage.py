@@ -1,4 +1,4 @@
-"""Kernels of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the initial values, the parameter table.
+"""Functions of the linkage without play in its joints: constraints, mass matrix, initial values, parameter table.
 
 A kernel is a function as statements (ir/kernels.py), which the targets print as C, NumPy and JavaScript.
 """

@@ -1,4 +1,4 @@
-"""Functions for loops that drives alone determine: Newton steps, and three time derivatives of the coordinates.
+"""Functions for linkage loops that drives alone determine: Newton steps, and three time derivatives of coordinates.
 
 With c the dependent coordinates and Φ_c the Jacobian of their closures, block by block
 (generator/solvers/square_rows.py):

@@ -1,4 +1,4 @@
-"""Every function of a scene before any text is printed: `make_program` derives them, targets print them.
+"""Every function of a scene before any text is printed: `make_program` derives them, generator/targets prints them.
 
 The order of derivation decides names and the order of derived parameters, so all of it is in one place: first the
 absolute formulation and what the closed linkage needs, then the joints with play, the tree, and last what the

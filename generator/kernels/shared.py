@@ -1,4 +1,4 @@
-"""Functions that joints share: equal kernels become one C function (procedural abstraction), called for each joint.
+"""Functions that joints share: equal functions become one C function (procedural abstraction), called for each joint.
 
 The parameters of the joint are arguments, named as in the law's file (`K`, `mu`). Switches are counted from the
 joint's first. A shared function keeps the order of terms of the first joint.

@@ -1,4 +1,4 @@
-"""Functions for implicit methods: Newton's matrix of the equations of motion, and solutions (I/η − J) u = r + s f_t.
+"""Functions for implicit methods: Newton's matrix of the equations of motion, and solutions of linear systems with it.
 
 J is the Jacobian of y' = f(t, y) with y = (q, v, works, internal states z) and η = h γ of the method. Eliminating
 u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),

@@ -1,4 +1,4 @@
-"""Solution of Φ_q x = r without the mass matrix, where there are as many constraint equations as coordinates.
+"""Solution of Φ_q x = r with the constraint Jacobian Φ_q, where there are as many constraint equations as coordinates.
 
 A linkage without degrees of freedom consists of groups of bodies that can be placed one after the other (the Assur
 groups of kinematics, mostly dyads: two equations in two angles). In Φ_q they are the diagonal blocks of its block

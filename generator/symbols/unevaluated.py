@@ -1,4 +1,4 @@
-"""Products that stay together: SymPy expands (0.01 x)^161, but 1e-322 and x^161 may leave the range of C numbers.
+"""Products that are not expanded: SymPy would print (0.01 x)^161 as 1e-322 x^161, outside the range of C numbers.
 
 An operation is checked after SymPy has performed it. The check fails if the result has a number far from 1 that no
 operand has, or powers that each may leave binary64 while their product does not. The operands then become

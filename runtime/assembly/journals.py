@@ -1,4 +1,4 @@
-"""Check and report the positions of journals in their bearings at the start: in contact, or too deep for laws."""
+"""Check and report the positions of journals in their bearings at the start: in contact, or too deep for the law."""
 
 from __future__ import annotations
 

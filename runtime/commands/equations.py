@@ -1,5 +1,5 @@
-"""Run `gudgeon equations`: write a scene's equations as LaTeX, text, a notebook, a page that runs, or on the
-terminal."""
+"""Run `gudgeon equations`: write a scene's equations as LaTeX, text, a notebook, a page with a simulator, or on
+the terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""List the checks that audit the accuracy of a run, in the order of engine/boundary.h, and what each compares."""
+"""List the checks of a run's audit, in the order of engine/boundary.h, with the values that each check compares."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers that the engine shares with Python: written by tools/declared.py (boundary.h)."""
+"""Constants of engine/boundary.h for Python: written by tools/declared.py."""
 
 from typing import Final
 

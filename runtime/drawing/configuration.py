@@ -1,4 +1,4 @@
-"""Own `Configuration`, a mechanism at one position for its drawing: coordinates q, parameters p, velocities, loads."""
+"""Define `Configuration`, a mechanism at one position for drawing: coordinates q, parameters p, velocities, loads."""
 
 from __future__ import annotations
 

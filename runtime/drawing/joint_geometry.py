@@ -1,4 +1,4 @@
-"""Own `JointGeometry`, the geometry of a joint at one position of the mechanism, from which its symbol is drawn.
+"""Define `JointGeometry`, the geometry of a joint at one position of the mechanism, from which its symbol is drawn.
 
 Also a slider with play in its guide: the drawn distance of its walls, its tilt, and its corners.
 """

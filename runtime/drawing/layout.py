@@ -1,4 +1,4 @@
-"""Own the layout that all drawings of one motion share, so that animations do not jump: sizes, ground, extent."""
+"""Define the layout that all drawings of one motion share, so that animations do not jump: sizes, ground, extent."""
 
 from __future__ import annotations
 

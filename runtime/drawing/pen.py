@@ -1,4 +1,4 @@
-"""Own `Pen`, which draws symbols of joints: lines, discs, and components that several symbols share."""
+"""Define `Pen`, which draws symbols of joints: lines, discs, and components that several symbols share."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own `Rig`, a drawing for animation (rigging): each point of a shape is attached to a moving frame of the mechanism.
+"""Define `Rig`, a drawing for animation (rigging): each point of a shape is attached to a moving frame of a body.
 
 The position of a point follows from a reference point, an angle and a length:
 

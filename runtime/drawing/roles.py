@@ -1,4 +1,4 @@
-"""Own the colours and line styles of each kind of shape in drawings, the same in figures and HTML pages."""
+"""Define the colours and line styles of each kind of shape in drawings, the same in figures and HTML pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own the shapes of a drawing, in metres and ground axes, and the plane geometry for symbols."""
+"""Define the shapes of a drawing, in metres and ground axes, and the plane geometry for symbols."""
 
 from __future__ import annotations
 

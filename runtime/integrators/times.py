@@ -1,4 +1,4 @@
-"""Hold the output times of the runs of a batch, common to all or one row per run, and compute the last fixed step."""
+"""Hold the output times of the runs of a batch, common to all or one row per run; compute the last fixed step."""
 
 from __future__ import annotations
 

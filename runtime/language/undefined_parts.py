@@ -1,4 +1,4 @@
-"""Find parts of a file's expressions that are undefined at given values, such as 0/0, before simplification.
+"""Find parts of a file's expressions that are undefined at given values, such as 0/0, as written in the file.
 
 Examples: `cos(acos(d))` simplifies to d, and `d/d` to 1. As written, they are undefined at d = 2 and at d = 0.
 """

@@ -1,4 +1,4 @@
-"""What cffi makes of the engine's declarations: written by tools/declared.py (`make generated`)."""
+"""Declarations of the engine's functions, parsed by cffi: written by tools/declared.py (`make generated`)."""
 
 from _cffi_backend import FFI
 

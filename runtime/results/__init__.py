@@ -1,1 +1,1 @@
-"""Results of runs: their data here; files, figures and reports of results in the folders below."""
+"""Represent results of runs; the folders below write results as files, figures and reports."""

@@ -1,4 +1,4 @@
-"""Own `Batch`, the results of many runs of one scene: arrays over the runs, and a Result of each run on request.
+"""Define `Batch`, the results of many runs of one scene: arrays over the runs, and a Result of each run on request.
 
 A series of a batch is read from the stored series. If states are stored instead, it is evaluated from them in C and in
 threads.

@@ -1,4 +1,4 @@
-"""Own `Diagnostics`: size and cost of a run, peaks, measures of its accuracy, and its provenance."""
+"""Define `Diagnostics`: size and cost of a run, peaks, measures of its accuracy, and its provenance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own `Lyapunov`, an estimate of the largest Lyapunov exponent with its uncertainty, and Poincaré section points.
+"""Define `Lyapunov`, an estimate of the largest Lyapunov exponent with its uncertainty, and Poincaré section points.
 
 The measured rate is that at which neighbouring motions separate, λ = lim ln(d(t)/d(0))/t (G. Benettin, L. Galgani, A.
 Giorgilli, J.-M. Strelcyn, Meccanica 15:9, 1980). The exponent per return, 1/return, is λ times the mean time between

@@ -1,4 +1,4 @@
-"""Own what notebooks display for a scene and for a run: a drawing of the mechanism and a table."""
+"""Define what notebooks display for a scene and for a run: a drawing of the mechanism and a table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own `Result`, the result of one run: the arrays that the integrator stored, and by name every series that follows
+"""Define `Result`, the result of one run: the arrays that the integrator stored, and by name every series that follows
 from them.
 
 Stored are t, q, q̇, contact states, approach speeds and works, and q̈ in runs of at most 20,000 samples

@@ -1,4 +1,4 @@
-"""Own the samples of a run in addition to the requested ones: its start, and its states at events.
+"""Define the samples of a run in addition to the requested ones: its start, and its states at events.
 
 A Result contains exactly the times that `simulate(output=[…])` requests. Where these begin after the start,
 `Result.start_row` is a result of one sample with the state at the start: works and energy.residual count from there.

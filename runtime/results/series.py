@@ -1,4 +1,4 @@
-"""Own the catalogue of time series: every name that a result has, its unit, its meaning and how it is computed.
+"""Define the catalogue of time series: every name that a result has, its unit, its meaning and how it is computed.
 
     S9.x .y .theta   .vx .vy .omega   .ax .ay .alpha       of a body's centre of mass
     L1.head.x .y     .vx .vy          .ax .ay              of a point

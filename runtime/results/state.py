@@ -1,4 +1,4 @@
-"""Own `State`: the end of a run, from which a further run restarts."""
+"""Define `State`: the end of a run, from which a further run restarts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own the computed wear of a joint with play: volume by Archard's or Reye's law, and depth along both surfaces.
+"""Define the computed wear of a joint with play: volume by Archard's or Reye's law, and depth along both surfaces.
 
 J. F. Archard, J. Appl. Phys. 24 (1953) 981: V = k F_n s/H, with the normal force F_n, the sliding distance s, the
 hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume proportional to the work of friction,

@@ -1,4 +1,4 @@
-"""Estimate the accuracy of a run for its report, by a repetition, by a finer run and by the ideal scene.
+"""Estimate the accuracy of a run for its report, by a repetition, a run of smaller tolerance, and the ideal scene.
 
 The same run is repeated bit for bit and sampled at Gauss points within its contacts. This gives the works of each
 joint with play and the speeds at separation. A second run with half the step or a tighter tolerance estimates the

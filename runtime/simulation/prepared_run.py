@@ -1,4 +1,4 @@
-"""Own `PreparedRun`: a run whose arguments are checked once, called with arrays of parameter values.
+"""Define `PreparedRun`: a run whose arguments are checked once, called with arrays of parameter values.
 
 `Simulation.simulate` checks all arguments of each call and returns a Result. Loops of optimizers and samplers make many
 calls that differ in parameter values only. A PreparedRun keeps its arrays and its pointers for C between the calls.

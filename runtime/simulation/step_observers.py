@@ -1,4 +1,4 @@
-"""Choose the step observers of a run: peaks of series (peaks.py), wear (wear.py), errors against another scene.
+"""Choose the functions that observe each step of a run: peaks of series, wear, errors against another scene.
 
 Errors over all steps are computed from the other scene at the times of these steps.
 """

@@ -1,4 +1,4 @@
-"""Own `Stepper`: a run in steps of a controller, with parameters that are held over each step.
+"""Define `Stepper`: a run in steps of a controller, with parameters that are held over each step.
 
 Each step is the run that `simulate(start=run.final, parameters={…})` makes from the end of the last one. The state
 stays in the arrays of a ReusableRun. Scenes that need Python within a run or after it are run by `simulate`.

@@ -1,4 +1,4 @@
-"""Find outputs, drives and forces of a run whose expressions are not numbers at samples although their inputs are."""
+"""Find outputs, drives and forces of a run that are NaN at samples although all their inputs are numbers."""
 
 from __future__ import annotations
 

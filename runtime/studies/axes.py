@@ -1,4 +1,4 @@
-"""Own the axes of `gudgeon map`, a parameter sweep: step, tolerance or run-time parameters with their values."""
+"""Define the axes of `gudgeon map`, a parameter sweep: step, tolerance or run-time parameters with their values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own the runs that `gudgeon bench` and `gudgeon map` compare: method, step or tolerance, time window, error norms."""
+"""Define the runs that `gudgeon bench` and `gudgeon map` compare: method, step or tolerance, times, error norms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Make the questions of an exercise sheet: degrees of freedom, Φ, Φ_q, γ, a joint's play, accelerations, forces.
+"""Make the questions of an exercise sheet: constraints Φ and derivatives, a joint's play, accelerations, forces.
 
 Abbreviations in formulas are explained in the order of their use.
 """

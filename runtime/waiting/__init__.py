@@ -1,1 +1,1 @@
-"""Keep long calls interruptible: Ctrl-C, cancellation of C functions, other programs, late imports."""
+"""Keep long calls interruptible: Ctrl-C, cancellation of C functions, other programs, imports on demand."""

@@ -1,4 +1,4 @@
-/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */
+/* Constants of engine/boundary.h for JavaScript: written by tools/declared.py. */
 const Boundary = {
     UNBOUNDED: -12,
     STALLED: -11,

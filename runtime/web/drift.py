@@ -1,4 +1,4 @@
-"""Explain on a page why constraints do not drift there, with Python code in which they drift."""
+"""Explain on a scene's web page why its constraints do not drift, with Python code of a run in which they drift."""
 
 from __future__ import annotations
 

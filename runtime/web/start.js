@@ -1,5 +1,5 @@
 /*
- * Find the start of a run: q and v of the closed linkage.
+ * Find the start of a run: coordinates q and velocities v of the closed linkage.
  *
  * As in Python, C closes the linkage near its guess. If that fails, the file's start, which Python found, is continued
  * from the file's parameter values to those of the run.

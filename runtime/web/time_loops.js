@@ -1,5 +1,5 @@
 /*
- * Run the time loops: call the engine for some steps or samples at a time, and handle its statuses.
+ * Run the time loops: call the engine for some steps or samples at a time, and handle its status codes.
  *
  * The calls are the same as in engine/batch, runtime/integrators/batch.py and kinematic.py, so that results are equal
  * bit by bit. Each loop is a generator of a simulator, checked options, memory of the module and a Run: it yields the

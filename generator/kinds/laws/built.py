@@ -1,4 +1,4 @@
-"""Check the results of a law's `build`: those of its role, from given symbols, in expressions that C can print.
+"""Check what a law's function `build` returns: the forces of its role, in given symbols, as expressions for C.
 
 `make_law_function` evaluates a law alone as a function of arrays.
 """

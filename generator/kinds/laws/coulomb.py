@@ -1,4 +1,4 @@
-"""Coulomb's friction, smoothed: F_t = −c_f F_n tanh(v_t/v_0).
+"""Coulomb's friction, smoothed: F_t = −c_f F_n tanh(v_t/v_0), with normal force F_n and slip v_t.
 
 Without a corner, so that a stiff method may step over it; it creeps where Coulomb's law would stick. Of the smooth
 forms of Coulomb's law that E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Nonlinear Dynamics 83 (2016) 1785–1801

@@ -1,4 +1,4 @@
-"""The hysteresis damping factor a in F = K δⁿ (1 + a δ̇/δ̇⁻), by several authors (physics.md, section 3).
+"""Hysteresis damping factors a of several authors in the force F = K δⁿ (1 + a δ̇/δ̇⁻) (physics.md, section 3).
 
 Each is a function of the coefficient of restitution c_e. What a law delivers is another number: it obeys
 a (1 + e_r) = ln[(1 + a)/(1 − a e_r)] whatever n, K and m (physics.md, section 3), and `exact` solves that for a.

@@ -1,4 +1,4 @@
-"""Oil film of a bearing of finite length with open ends and p ≥ 0: a potential with four fitted terms.
+"""Oil film of a bearing of finite length with open ends and no negative pressure: a potential with four fitted terms.
 
 Under that condition the force is the gradient of half the power that the film takes, F = −∂V_f/∂w, with V_f of
 the second degree in w. With s = √(1 − ε²) (s_ε in physics.md), w_ε = √(w_n² + s² w_t²), ξ = ε w_n/w_ε, Λ = L/D and

@@ -1,4 +1,4 @@
-"""Hertz-type contact with a choice of hysteresis damping; K is given, or follows from radii and materials.
+"""Hertz-type contact with a choice of hysteresis damping; the stiffness is given, or follows from radii and materials.
 
     F_n = K δⁿ (1 + a δ̇/δ̇⁻),   K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
 

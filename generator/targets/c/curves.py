@@ -1,4 +1,4 @@
-"""Writes the tables of a file's curves as C, for engine/scene/curves.h; only curves that other files call."""
+"""Writes the tables of a file's curves as C, for engine/scene/curves.h; only of curves that the scene's C calls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Prints kernels as C11 functions: each class of lines, calls, and long functions outlined into parts."""
+"""Prints generated functions as C11: each class of lines, calls, and long functions outlined into parts."""
 
 from __future__ import annotations
 

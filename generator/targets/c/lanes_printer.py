@@ -1,4 +1,4 @@
-"""Prints kernels for SIMD lanes, one run per lane: the same statements with vectors (lanes.h), masks for branches.
+"""Prints generated functions for SIMD lanes, one run per lane: vectors for numbers (lanes.h), masks for branches.
 
 The order of operations is kept, so that each lane rounds as a single run does. Lanes in which a single run would take
 another path are added to the mask `needs_scalar`. Their steps fall back to the scalar code of single runs.

@@ -1,4 +1,4 @@
-"""Prints SymPy expressions and values of kernels as C11, in lines of at most WIDTH characters."""
+"""Prints SymPy expressions and values of generated functions as C11, in lines of at most WIDTH characters."""
 
 from __future__ import annotations
 

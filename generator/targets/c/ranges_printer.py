@@ -1,4 +1,4 @@
-"""Prints kernels for interval arithmetic: the same statements with intervals (bounds and slopes) for numbers.
+"""Prints generated functions for interval arithmetic: intervals (bounds and slopes) take the place of numbers.
 
 The operations are in engine/watch/ranges.h.
 """

@@ -1,4 +1,4 @@
-"""Emits Φ, Φ_q, ν, γ and the forces of joints with play as JavaScript, for the values that a page shows."""
+"""Emits constraints, their derivatives and forces of joints with play as JavaScript, for the values on a page."""
 
 from __future__ import annotations
 

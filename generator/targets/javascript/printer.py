@@ -1,4 +1,4 @@
-"""Prints kernels as JavaScript; expressions are those of C, so that results are the same bit for bit.
+"""Prints generated functions as JavaScript; expressions are those of C, so that results are equal bit for bit.
 
 PRELUDE defines the functions of C that the expressions call. p is an object with a member for each parameter. Branches
 are not frozen.

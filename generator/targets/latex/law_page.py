@@ -23,11 +23,23 @@ _CHOICES = {
     "geometry": "R_i + R_j in the equation of K becomes R_i − R_j.",
     "pulls": "the equation of F_n applies without max(0, …).",
     "shear": "the film also transmits the [shear torque](physics.md#line-of-action-and-shear-torque)"
-    " M_τ = D_s (ω_j − ω_i), with D_s in N·m·s and the clearance c_film = c + c_a of the film.",
+    " M_τ = D_s (ω_j − ω_i) in N·m. D_s, in N·m·s, is D_0 for a centred journal, and c_film = c + c_a is the clearance"
+    " of the film.",
     "cavitation": "the whole film contributes, with S = μ R_j L³/c_film²:",
     "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print:",
 }
 _WITHOUT_EQUATIONS = {"geometry", "pulls"}
+# Sentence before the equations of each law of a role. The first table of the page defines the symbols.
+_SYMBOLS = "The [table at the beginning](#force-laws) defines all symbols."
+_INTRODUCTIONS = {
+    "normal": "The normal force F_n, in N, follows from the penetration δ, in m, and its rate δ̇, in m/s.",
+    "friction": "The friction force F_t, in N, follows from the normal force F_n, in N, and the slip v_t, in m/s.",
+    "film": "The components F_r and F_t of the film force, in N, follow from the eccentricity ratio ε and the effective"
+    " squeeze velocity, w_n and w_t in 1/s.",
+    "rigid": "In an impact of rigid surfaces, the rate of the penetration changes from δ̇⁻ to δ̇⁺, in m/s. In a closed"
+    " contact, the normal force F_n, in N, is zero or the acceleration δ̈ of the penetration, in m/s², is zero.",
+    "mixed": "The force F, in N, is a mean of the dry force and the film force with the weights b and 1 − b.",
+}
 _HEADINGS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 
 
@@ -96,7 +108,8 @@ def _describe_dissipation() -> Iterator[str]:
         yield f"| `{name}` | {formula} | {' | '.join(e)} | {SOURCES.get(str(name), '')} |"
     yield from (
         "",
-        "The steps of Newton's method for `dissipation: exact`, with the force of `hertz`:",
+        "These steps of Newton's method compute the factor a_4 for `dissipation: exact`, here with the force of"
+        " `hertz`; `decay` is an intermediate value:",
         "",
         *_print_text_block(form_by_value[EXACT].equations),
     )
@@ -109,6 +122,7 @@ def _describe_law_in_markdown(law: Law) -> Iterator[str]:
         names_text = ", ".join(f"`{name}`" for name in law.also)
         yield from (f"Other names, each for `{law.name}` with the `dissipation` of that name: {names_text}.", "")
     default_form, *other_forms = derive_forms(law, law.name)
+    yield from (f"{_INTRODUCTIONS['rigid' if law.rigid else law.role]} {_SYMBOLS}", "")
     yield from _print_display_equations(law) if law.equation else _print_text_block(default_form.equations)
     for form in other_forms:
         if DISSIPATION.name not in form.selected:
@@ -121,7 +135,8 @@ def _describe_law_in_markdown(law: Law) -> Iterator[str]:
         )
     if law.states:
         states_text = "; ".join(
-            f"{make_name_from_latex(state.name).text} is the {state.meaning}, 0 at each onset of a contact"
+            f"The state {make_name_from_latex(state.name).text}, in m, is the {state.meaning};"
+            " it is 0 at each onset of a contact"
             for state in law.states
         )
         yield from (f"{states_text}.", "")

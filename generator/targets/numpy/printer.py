@@ -1,4 +1,4 @@
-"""Prints SymPy expressions and kernels as Python with NumPy, for `model.numpy()` and for plots of laws.
+"""Prints SymPy expressions and generated functions as Python with NumPy, for `model.numpy()` and plots of laws.
 
 Branches of switching functions are not frozen, and vanishing pivots are not treated. Lines are at most WIDTH characters
 long: code is broken inside brackets.

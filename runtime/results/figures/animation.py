@@ -1,4 +1,4 @@
-"""Write a run as an animation: a GIF, a film, or an HTML page that plays (drawing/page.py)."""
+"""Write a run as an animation: a GIF, an MP4 video, or an HTML page that plays (drawing/page.py)."""
 
 from __future__ import annotations
 

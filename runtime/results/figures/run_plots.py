@@ -1,4 +1,4 @@
-"""Own the figures of one run, `run.plot()`, `run.plot.orbit("A")`, and of its wear; notebooks display them.
+"""Define the figures of one run, `run.plot()`, `run.plot.orbit("A")`, and of its wear; notebooks display them.
 
 matplotlib is imported with this module, hence only for drawing, and pyplot only if the caller uses it: no display is
 needed, and no figure stays in memory.

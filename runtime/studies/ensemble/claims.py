@@ -1,4 +1,4 @@
-"""Convert the claims of a study file, published numbers and trends, to checks (conditions) on cells of its runs."""
+"""Convert the claims of a study file, published numbers and trends, to conditions on groups of its runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Merge the blocks of a finished study into one NetCDF 4 file, block by block, so that memory does not limit it."""
+"""Merge the files of a study's blocks (batches of runs) into one NetCDF 4 file, one by one, so that memory suffices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own `Study`, the results of a finished study in its folder: datasets, tables and claims are read on request."""
+"""Define `Study`, the results of a finished study in its folder: datasets, tables and claims are read on request."""
 
 from __future__ import annotations
 

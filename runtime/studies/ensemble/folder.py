@@ -1,4 +1,4 @@
-"""Own the folder of a study on disk (checkpoints): manifest, blocks of finished runs, and a lock for a single writer.
+"""Manage the folder of a study on disk (checkpoints): manifest, blocks of finished runs, a lock for a single writer.
 
 A kill at any moment loses at most the unfinished blocks.
 """

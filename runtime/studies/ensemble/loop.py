@@ -1,4 +1,4 @@
-"""Run all missing blocks of a study, in threads or by an executor (parallel map); one process writes the results."""
+"""Run all blocks (batches) of a study not yet on disk, by threads or an executor; one process writes the results."""
 
 from __future__ import annotations
 

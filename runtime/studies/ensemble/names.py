@@ -1,4 +1,4 @@
-"""Own the display texts of a study: titles of its quantities, values typeset as the file writes them, descriptions."""
+"""Define display texts of a study: titles of its quantities, values typeset as the file writes them, descriptions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compute the reference series that deviations subtract: another scene with the same parameters and sample times."""
+"""Compute the reference of deviations: series of another scene with the same parameters and sample times."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Own the plan of a study (design of experiments): its runs over the varied parameters, in blocks of one process."""
+"""Define the plan of a study (design of experiments): its runs over the varied parameters, in blocks (batches)."""
 
 from __future__ import annotations
 

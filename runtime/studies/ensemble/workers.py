@@ -1,4 +1,4 @@
-"""Own the executors that run a study's blocks: worker processes, a dask cluster, any executor of concurrent.futures."""
+"""Define the executors of a study: worker processes, a dask cluster, any executor of concurrent.futures."""
 
 from __future__ import annotations
 
