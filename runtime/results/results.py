@@ -405,16 +405,16 @@ def read(path: str | os.PathLike[str]) -> Result:
 class EvaluatedSamples(Result):
     """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics.
 
-    Samples of several runs may follow each other: `joined_counts` of them, with parameter values p (n_runs, n_p).
+    Samples of several runs may follow each other: `sample_counts_of_runs` of them, with parameter values p (n_runs, n_p).
     """
 
     parts: frozenset[str] = FIELD_NAMES
-    joined_counts: tuple[int, ...] = ()
+    sample_counts_of_runs: tuple[int, ...] = ()
 
     @property
     def sample_counts(self) -> tuple[int, ...]:
-        """Number of samples of each run in `t`; one entry if `joined_counts` is empty."""
-        return self.joined_counts or super().sample_counts
+        """Number of samples of each run in `t`; one entry if `sample_counts_of_runs` is empty."""
+        return self.sample_counts_of_runs or super().sample_counts
 
     @cached_property
     def evaluation(self) -> Evaluation:

@@ -139,7 +139,7 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, fu
             "elrod_adams: the gap closes faster than oil is convected",
             hint="θ would depend on the history; cavitation='reynolds' does not use θ",
         )
-    pressure = _iterate_full_nodes(matrix, convection, free_nodes, full_nodes) or _iterate_full_nodes(
+    pressure = _solve_by_active_set(matrix, convection, free_nodes, full_nodes) or _solve_by_active_set(
         matrix, convection, free_nodes, np.zeros_like(full_nodes)
     )
     if pressure is None:
@@ -147,7 +147,7 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, fu
     return pressure
 
 
-def _iterate_full_nodes(
+def _solve_by_active_set(
     matrix: sparse.csr_matrix, convection: sparse.csr_matrix, free_nodes: Flags, full_nodes: Flags
 ) -> Pressure | None:
     """Iterate the active set of full nodes; return the solution, or None without convergence in MAX_STEPS iterations.

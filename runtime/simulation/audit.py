@@ -41,7 +41,9 @@ LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}
 BODY_LIMIT = {"body": 1e-9}  # the same for the equations of single bodies, relative to the largest force or moment
 MAX_CALLS_OF_SHORT_RUN = 500  # right-hand sides: in a shorter run, fewer samples are checked to save time
 MIN_CALLS_OF_LONG_RUN = 2000  # right-hand sides: in a longer run, the equations of single bodies are checked too
-WORST_OF_UNDEFINED = 2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
+NON_FINITE_FINDING_VALUE = (
+    2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
+)
 # times rtol times the root of the number of steps: allowed residual relative to the energy throughput
 ENERGY_TOL_FACTOR = 1e3
 MIN_ENERGY_TOL = 1e-6  # smallest allowed residual, relative to the energy throughput
@@ -97,7 +99,7 @@ class SampleAudit:
         if not self.is_on:
             return
         if self.joints:
-            self._add_contact_forces(first, evaluation)
+            self._update_contact_force_maxima(first, evaluation)
         self.drawn.append(
             evaluation
             if len(evaluation.a) == len(self.trajectory.t)
@@ -113,7 +115,7 @@ class SampleAudit:
             row = _find_undefined_row(evaluation, bool(self.source.rigid))
             self.first_undefined = None if row is None else float(self.trajectory.t[first + row])
 
-    def _add_contact_forces(self, first: int, evaluation: Evaluation) -> None:
+    def _update_contact_force_maxima(self, first: int, evaluation: Evaluation) -> None:
         """Update the maxima of contact forces by the next samples, which begin with sample `first` of the run.
 
         Joints with a film or a rigid contact are left out. A sample is outside contacts if its discrete state is NaN.
@@ -152,7 +154,7 @@ class SampleAudit:
             findings.append(
                 Finding("finite", 0.0, float(trajectory.t[0]), "")
                 if t is None
-                else Finding("finite", WORST_OF_UNDEFINED, t, "")
+                else Finding("finite", NON_FINITE_FINDING_VALUE, t, "")
             )
         left_out = list_checks_left_out(source, problem.method)
         findings += [finding for finding in self._check_random_samples(size) if finding.check not in left_out]

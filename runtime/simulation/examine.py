@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING
+from gudgeon.contract.methods import ADAPTIVE, STEP_CONTROLLED_METHODS
 from gudgeon.errors import GudgeonError
 from gudgeon.language.argument_checks import check_integer
 from gudgeon.model.contours import find_contour, interpolate_depth
@@ -170,7 +170,7 @@ def _yield_exact_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
     For methods that "auto" chooses between, the adaptive method comes first, then `settings` as it is.
     """
-    if settings["method"] in CHOOSING and "step" not in settings:
+    if settings["method"] in STEP_CONTROLLED_METHODS and "step" not in settings:
         yield settings | {"method": ADAPTIVE}
     yield settings
 

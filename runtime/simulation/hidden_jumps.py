@@ -27,7 +27,9 @@ from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 from gudgeon.model.file_expressions import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
 
-_HIDING = select_function_names(lambda f: f.hides_switching_points)  # functions that may hide a switching point
+_FUNCTIONS_HIDING_SWITCHING_POINTS = select_function_names(
+    lambda f: f.hides_switching_points
+)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`
 N_GRID_INTERVALS, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
 END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end
@@ -198,7 +200,7 @@ def _is_possibly_nonsmooth(tree: Expr) -> bool:
                 or _is_possibly_nonsmooth(right)
             )
         case Call(function=function, arguments=arguments):
-            return function in _HIDING or any(map(_is_possibly_nonsmooth, arguments))
+            return function in _FUNCTIONS_HIDING_SWITCHING_POINTS or any(map(_is_possibly_nonsmooth, arguments))
     return False
 
 

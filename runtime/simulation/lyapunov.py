@@ -55,7 +55,7 @@ MIN_INTERVAL = 2.0**-12  # shortest interval, relative to the longest
 PERIOD_TOL = 1e-6  # of a period: by which a time may differ from a multiple of it
 
 
-def explain_invalid_tangent(source: KernelSource) -> str:
+def explain_invalid_variational_equation(source: KernelSource) -> str:
     """Return why the Jacobian does not describe all motions of neighbouring states of a scene; "" where it does."""
     if source.reason_without_jacobian:
         return source.reason_without_jacobian
@@ -132,7 +132,7 @@ def compute_lyapunov_exponent(
     )
 
 
-def explain_slow_tangent(source: KernelSource) -> str:
+def explain_slow_variational_equation(source: KernelSource) -> str:
     """Return why by="auto" uses a second run although the tangent would be valid; "" where the tangent is fast.
 
     The reason is a stiff film, on which the tangent needs as many panels as there are steps.
@@ -205,10 +205,10 @@ def _explain_second_run(source: KernelSource, method: str) -> str | None:
     """
     if method not in METHODS:
         raise_bad_value("by", method, f"one of {', '.join(METHODS)}")
-    reason = explain_invalid_tangent(source)
+    reason = explain_invalid_variational_equation(source)
     if method == "tangent" and reason:
         raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" uses a second run')
-    reason = reason or (explain_slow_tangent(source) if method == "auto" else "")
+    reason = reason or (explain_slow_variational_equation(source) if method == "auto" else "")
     return None if method == "tangent" or (method == "auto" and not reason) else reason
 
 
@@ -238,7 +238,8 @@ def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float 
     """
     return (
         min(rtol, MAX_RTOL_OF_SECOND_RUN)
-        if rtol is not None and (explain_invalid_tangent(source) or explain_slow_tangent(source))
+        if rtol is not None
+        and (explain_invalid_variational_equation(source) or explain_slow_variational_equation(source))
         else rtol
     )
 

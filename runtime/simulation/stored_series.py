@@ -167,7 +167,7 @@ def _concatenate_samples(runs: Runs, indices: Sequence[int], parts: frozenset[st
     result = make_evaluated_samples(
         compiled.source, compiled, numbers, t, q, v, y[:, 2 * n :], discrete_states, state, parts
     )
-    result.joined_counts = tuple(counts)
+    result.sample_counts_of_runs = tuple(counts)
     accelerations = [a for i in indices if (a := runs.get_accelerations(i)) is not None]
     if accelerations:
         result.accelerations, parts = np.concatenate(accelerations), parts - {"a"}

@@ -98,7 +98,7 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
         )
         yield "code", DERIVATION_CODE
     if not any(body.missing_keys for body in scene.mechanism.bodies.values()):
-        yield from _yield_motion_cells(model, names)
+        yield from _yield_equation_of_motion_cells(model, names)
     yield from _yield_run_cells(model, mechanism)
 
 
@@ -206,7 +206,7 @@ def _write_column_by_lines(entries: list[str]) -> str:
     return f"sp.Matrix([\n    {inside},\n])"
 
 
-def _yield_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+def _yield_equation_of_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
     """Yield the cells of the mass matrix M and the applied forces g; the system is solved numerically later."""
     text = "The forces of joints with play and of set-valued friction are added to g by the simulator."
     more = text if model.clearances or model.frictions else ""

@@ -107,7 +107,7 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value
     value is not allowed.
     """
 
-    def is_value_refused(new_value: float) -> bool:
+    def is_value_invalid(new_value: float) -> bool:
         """Return whether a value of the parameter violates a condition."""
         try:
             prepare_values(compiled, {parameter.address: new_value})
@@ -115,15 +115,15 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value
             return True
         return False
 
-    if not is_value_refused(end) or is_value_refused(value):
+    if not is_value_invalid(end) or is_value_invalid(value):
         return end
     accepted, refused = value, end
     for _ in range(N_BISECTIONS):
         middle = 0.5 * (accepted + refused)
-        accepted, refused = (accepted, middle) if is_value_refused(middle) else (middle, refused)
+        accepted, refused = (accepted, middle) if is_value_invalid(middle) else (middle, refused)
     return (
         0.0
-        if abs(accepted) < BOUND_MARGIN * abs(value) and not is_value_refused(0.0)
+        if abs(accepted) < BOUND_MARGIN * abs(value) and not is_value_invalid(0.0)
         else accepted + BOUND_MARGIN * (value - accepted)
     )
 

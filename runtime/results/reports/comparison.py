@@ -28,7 +28,7 @@ MAX_SCENE_COLUMNS = 4  # scenes in one table
 # of a joint with play: name -> (unit that a table can scale, row label); other constants are in --json only
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
 MIN_SHOWN_AUDIT = 1e-3  # value, as a multiple of the limit, from which on a check of the audit has its own row
-NEED_A_LEGEND = ("δ̇/δ̇⁻ during contact", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
+VERBOSE_ROWS = ("δ̇/δ̇⁻ during contact", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
 @dataclass(frozen=True)
@@ -163,14 +163,14 @@ def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose
     """Return rich tables for a terminal, with a column for each scene and a row for each quantity.
 
     Each table has as many columns as fit `width` characters, at least one and at most MAX_SCENE_COLUMNS. `verbose` adds
-    the rows of NEED_A_LEGEND. Only the first table has the title.
+    the rows of VERBOSE_ROWS. Only the first table has the title.
     """
     from rich.measure import Measurement
 
     from gudgeon.language.text_output import make_plain_console
 
     wide_console = make_plain_console(10_000)
-    rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
+    rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(VERBOSE_ROWS)]
     table_list: list[Table] = []
     for n_columns in range(min(MAX_SCENE_COLUMNS, len(reports)), 0, -1):
         column_ranges = [slice(first, first + n_columns) for first in range(0, len(reports), n_columns)]

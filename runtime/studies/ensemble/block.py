@@ -32,7 +32,7 @@ from gudgeon.studies.ensemble.measures import (
     list_sliding_requests,
 )
 from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, group_notes, merge_notes
-from gudgeon.studies.ensemble.origins import (
+from gudgeon.studies.ensemble.subtracted_series import (
     compute_subtracted_series,
     find_scene_subtracted_over_steps,
     load_subtracted_scene,

@@ -81,7 +81,7 @@ def list_sliding_requests(measures: tuple[Measure, ...], source: KernelSource) -
 
     Joints that the scene lacks, or whose wear cannot be measured, are left out.
     """
-    joints = _list_joints(source, with_wear=True)
+    joints = _list_joints_with_play(source, with_wear=True)
     expected = (str(measure.of) for measure in measures if measure.statistic in WEAR_STATISTICS)
     return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in joints)
 
@@ -94,7 +94,7 @@ def find_measure_unit(measure: Measure, source: KernelSource) -> str | None:
     if measure.statistic in JOINT_STATISTICS:
         return (
             STATISTIC_UNITS[measure.statistic]
-            if measure.of in _list_joints(source, measure.statistic in WEAR_STATISTICS)
+            if measure.of in _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS)
             else None
         )
     if measure.statistic in CROSSING_STATISTICS:
@@ -113,7 +113,10 @@ def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputE
 
     if measure.statistic in JOINT_STATISTICS:
         return make_unknown_name_error(
-            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR_STATISTICS), measure.of.where
+            "joint with play",
+            measure.of,
+            _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS),
+            measure.of.where,
         )
     if measure.statistic in CROSSING_STATISTICS:
         return make_unknown_name_error("event", measure.of, _list_events(source), measure.of.where)
@@ -141,7 +144,7 @@ def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -
                 raise UnknownNameError(message, measure.of.where, error.hint) from None
 
 
-def _list_joints(source: KernelSource, with_wear: bool = False) -> list[str]:
+def _list_joints_with_play(source: KernelSource, with_wear: bool = False) -> list[str]:
     """Return the names of the joints with play of a scene; with `with_wear` only those whose wear can be measured.
 
     Those have a known contact force and are not corners of a guide.
@@ -182,7 +185,9 @@ def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_se
     if measure.statistic in STEP_STATISTICS:
         return _read_step_peaks(batch, measure)
     if measure.statistic in JOINT_PEAKS:
-        return np.asarray(batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints(source).index(measure.of)])
+        return np.asarray(
+            batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints_with_play(source).index(measure.of)]
+        )
     if measure.statistic in WEAR_STATISTICS:
         return _compute_bearing_wear(batch, measure)
     if measure.statistic in CONTACT_STATISTICS:
@@ -229,7 +234,7 @@ def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end:
     Contacts count if their onset lies in the run's window, begin to end (s), (n,) each. A run without such a contact
     has 0 as number, else NaN.
     """
-    joint, is_count = _list_joints(batch.source).index(measure.of), measure.statistic == "impacts"
+    joint, is_count = _list_joints_with_play(batch.source).index(measure.of), measure.statistic == "impacts"
     out = _make_default_values(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]

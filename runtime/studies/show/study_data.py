@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
 Coords: TypeAlias = Mapping[str, Any]
-SAMPLES, OWN_TIMES = ("time", "sample"), "t"
+SAMPLES, RUN_TIMES = ("time", "sample"), "t"
 MAX_WRITTEN_TICKS = 8  # values at an axis that are written as in the file
 MAX_ZIP_TEXT_LENGTH = 40  # characters of the values at an index of a zip
 MIN_COLUMNS_FOR_CHANGES = 4  # with so many parameters of a zip, only differences are displayed
@@ -49,7 +49,7 @@ class StudyData:
         return tuple(
             str(name)
             for name, variable in self.dataset.data_vars.items()
-            if variable.dims and variable.dims[-1] in SAMPLES and name != OWN_TIMES
+            if variable.dims and variable.dims[-1] in SAMPLES and name != RUN_TIMES
         )
 
     def get_unit(self, name: str) -> str:
@@ -114,9 +114,9 @@ class StudyData:
         if check_text(name, "a series", "the name of a stored series") not in self.stored_series:
             raise make_missing_name_error(f"the study stored no series {name!r}", name, self.stored_series)
         values = self._select_runs(self.dataset[name], coordinates)
-        if OWN_TIMES not in self.dataset:
+        if RUN_TIMES not in self.dataset:
             return self.dataset["time"].values, values
-        t = self._select_runs(self.dataset[OWN_TIMES], coordinates).values
+        t = self._select_runs(self.dataset[RUN_TIMES], coordinates).values
         rows = t.reshape(-1, t.shape[-1])
         rows = rows[np.isfinite(rows[:, 0])]
         if len(rows) and have_equal_times(rows):
