@@ -18,7 +18,7 @@ from typer.models import CommandInfo
 from gudgeon.commands import completion
 from gudgeon.commands import options as opt
 from gudgeon.commands.outcome import print_warnings_once, report_errors
-from gudgeon.contract.methods import STEP_CONTROLLED_METHODS, KINEMATIC, OFFERED
+from gudgeon.contract.methods import KINEMATIC, OFFERED, STEP_CONTROLLED_METHODS
 from gudgeon.language.deprecations import STRESS
 
 MAX_SENTENCE = 1000  # characters, more than in any first sentence

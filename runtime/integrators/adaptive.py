@@ -36,12 +36,12 @@ from gudgeon.assembly.linkage import find_angles
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.contract.methods import (
     ADAPTIVE,
-    STEP_CONTROLLED_METHODS,
     EXPLICIT,
     FINE,
     KINEMATIC,
     SMOOTH,
     STAGED,
+    STEP_CONTROLLED_METHODS,
     STIFF,
     TAYLOR,
 )

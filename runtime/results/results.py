@@ -405,7 +405,8 @@ def read(path: str | os.PathLike[str]) -> Result:
 class EvaluatedSamples(Result):
     """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics.
 
-    Samples of several runs may follow each other: `sample_counts_of_runs` of them, with parameter values p (n_runs, n_p).
+    Samples of several runs may follow each other. `sample_counts_of_runs` then has the number of samples of each run,
+    and p the parameter values (n_runs, n_p).
     """
 
     parts: frozenset[str] = FIELD_NAMES
@@ -440,9 +441,11 @@ def make_evaluated_samples(
     state: Array,
     parts: frozenset[str],
 ) -> EvaluatedSamples:
-    """Return a result of samples as C stores them, which can evaluate `parts` of an Evaluation only.
+    """Return a result of samples as C stores them; of an Evaluation it can evaluate only the fields named in `parts`.
 
-    It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene without masses.
+    `work` (N, 3); `discrete_states` (N, n_memory): approach speeds, friction modes, internal states; `state` (N,
+    n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
+    without masses.
     """
     n_parameters = len(source.slots)
     return EvaluatedSamples(

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.contract.methods import (
     ADAPTIVE,
-    STEP_CONTROLLED_METHODS,
     EXPLICIT,
     KINEMATIC,
     SMOOTH,
     STAGED,
     STAGES,
+    STEP_CONTROLLED_METHODS,
     TAYLOR,
 )
 from gudgeon.errors import AssemblyError, BadValueError

@@ -116,9 +116,10 @@ class SampleAudit:
             self.first_undefined = None if row is None else float(self.trajectory.t[first + row])
 
     def _update_contact_force_maxima(self, first: int, evaluation: Evaluation) -> None:
-        """Update the maxima of contact forces by the next samples, which begin with sample `first` of the run.
+        """Update the maxima of each joint's contact force (N) by the next samples; `first`: index of the first of them.
 
-        Joints with a film or a rigid contact are left out. A sample is outside contacts if its discrete state is NaN.
+        They are the maxima over all samples, over samples outside contacts (discrete state NaN) with its time, and over
+        those of them that touch (|δ| of rounding size). Joints with a film or a rigid contact are left out.
         """
         memory = self.trajectory.memory[first : first + len(evaluation.a)]
         clearance, t_first = evaluation.clearance, float(self.trajectory.t[first])
@@ -163,8 +164,9 @@ class SampleAudit:
     def _check_contact_forces(self) -> Iterator[Finding]:
         """Yield findings on the contact forces of joints without a film and without rigid contact.
 
-        At samples outside contacts the force must be zero. The peak force of a joint must not exceed the largest peak
-        of its recorded contacts. The peak is not checked if the run begins or ends within a contact.
+        A finding has a value over its tolerance. At samples outside contacts the force must be zero. The peak force of
+        a joint must not exceed the largest peak of its recorded contacts. The peak is not checked if the run begins or
+        ends within a contact.
         """
         trajectory = self.trajectory
         for k, forces in zip(self.joints, self.contact_forces, strict=True):
@@ -183,8 +185,9 @@ class SampleAudit:
     def _check_random_samples(self, size: float) -> tuple[Finding, ...]:
         """Return findings on power, drive torques and constraint equations at pseudo-random samples.
 
-        C's gudgeon_audit_samples computes them. In long runs, and if audit is "full", the equations of motion of single
-        bodies are checked there too.
+        Each has the largest error over its limit, and its time; errors that are not finite count as 0. `size` (m): size
+        of the mechanism. C's gudgeon_audit_samples computes them. In long runs, and if audit is "full", the equations
+        of motion of single bodies are checked there too.
         """
         compiled, problem, trajectory, samples = self.compiled, self.problem, self.trajectory, self.samples
         memory = trajectory.memory[samples] if compiled.n_memory else np.full((len(samples), 1), np.nan)
@@ -277,8 +280,9 @@ def check_energy_balance(
 ) -> Iterator[Finding]:
     """Yield a finding on the energy balance of the whole run, relative to its tolerance.
 
-    Yields nothing for a fixed step, which has no tolerance, for few samples, and where the energy throughput is too
-    small. `largest_energy`: kinetic or potential (J). `balance`: residual and throughput (J).
+    Yields nothing for a fixed step, which has no tolerance, for kinematic runs, for fewer than MIN_SAMPLES samples, and
+    where the energy throughput is too small. `largest_energy`: kinetic or potential (J). `balance`: residual and
+    throughput (J). `size` (m): size of the mechanism.
     """
     residual, throughput = balance[0], balance[1] + largest_energy
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"

@@ -185,8 +185,8 @@ def _format_jump_error(jump: Jump, reason: str) -> str:
 def _is_possibly_nonsmooth(tree: Expr) -> bool:
     """Return whether an expression may be non-smooth at points that the generator does not detect.
 
-    Such are functions with `hides_corners`, as acos and sqrt, powers whose exponent is not a natural number, and
-    divisions by other than a number.
+    Such are functions with `hides_switching_points`, as acos and sqrt, powers whose exponent is not a natural number,
+    and divisions by other than a number.
     """
     match tree:
         case Unary(operand=operand):
@@ -284,8 +284,9 @@ def _find_unbounded_rates(source: KernelSource, p: Array, tree: Expr, drive: str
 def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:
     """Classify a candidate between a and b (s) as a jump of value, rate or infinite rate, and return the Jump.
 
-    Second differences are compared on shorter and shorter intervals. Return None if the drive is smooth or not a number
-    there.
+    The largest second difference on shorter and shorter intervals h is proportional to h^n, with n near 0 for a jump of
+    the value, 1 for a jump of the rate, between them for an infinite rate, 2 for a smooth drive. Return None if the
+    drive is smooth or not a number there.
     """
     logs: list[float] = []
     sizes: list[float] = []  # of the rate's change

@@ -311,8 +311,8 @@ class RunInterpolant:
             self.works_cache = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
         work = legval(2.0 * s[:, 0] - 1.0, self.works_cache[1]).T
         correction = x.work[k + 1] - x.work[k] - legval(1.0, self.works_cache[1])
-        out: Array = x.work[k] + work + s * correction
-        return out
+        corrected_work: Array = x.work[k] + work + s * correction
+        return corrected_work
 
 
 @cache

@@ -124,8 +124,8 @@ def _build_sliding_request(
     begin = first if since is None else check_number(since, "since")
     end = last if until is None else check_number(until, "until")
     if not first <= begin < end <= last:
-        message_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
-        raise BadValueError(message_of, hint="expected since before until, both within the run")
+        message = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
+        raise BadValueError(message, hint="expected since before until, both within the run")
     return SlidingRequest(joint, check_integer(points, "points", 8, MAX_POINTS), begin, end, contact_model == "overlap")
 
 
@@ -140,15 +140,13 @@ def check_joint_can_wear(source: KernelSource, joint: Any) -> None:
         hint = f"its joints with play: {', '.join(clearance.name for clearance in source.clearances) or 'none'}"
         raise UnknownNameError(f"no wear of {shorten_value(joint)}: expected a joint with play", hint=hint)
     if matching[0].is_corner:
-        message_of = f"no wear of {joint}: it is a corner of a slider, and wear is computed for bearings only"
-        raise BadValueError(message_of, hint="expected a revolute joint with play")
+        message = f"no wear of {joint}: it is a corner of a slider, and wear is computed for bearings only"
+        raise BadValueError(message, hint="expected a revolute joint with play")
     if not matching[0].dry:
         raise BadValueError(f"{joint} has a film only: nothing wears", hint="expected a contact with a normal law")
     if not has_known_contact_force(source, matching[0]):
-        message_of = f"no wear of {joint}: the force of its film is not known with user-defined laws"
-        raise BadValueError(
-            message_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film"
-        )
+        message = f"no wear of {joint}: the force of its film is not known with user-defined laws"
+        raise BadValueError(message, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film")
 
 
 def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:

@@ -14,7 +14,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.contract.methods import STEP_CONTROLLED_METHODS, INTEGRATORS, STAGED
+from gudgeon.contract.methods import INTEGRATORS, STAGED, STEP_CONTROLLED_METHODS
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
@@ -68,8 +68,8 @@ def select_methods(simulation: Simulation, requested: Sequence[str] | None, quic
         else:
             fitting.append(method)
     if not fitting:
-        message = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} allows a fixed step only: rk4"]
-        raise BadValueError("none of the methods fits", hint="; ".join(message))
+        reasons = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} allows a fixed step only: rk4"]
+        raise BadValueError("none of the methods fits", hint="; ".join(reasons))
     return fitting, list(dict.fromkeys(left_out))
 
 

@@ -207,15 +207,18 @@ def _write_column_by_lines(entries: list[str]) -> str:
 
 
 def _yield_equation_of_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
-    """Yield the cells of the mass matrix M and the applied forces g; the system is solved numerically later."""
-    text = "The forces of joints with play and of set-valued friction are added to g by the simulator."
-    more = text if model.clearances or model.frictions else ""
+    """Yield a text cell with M q̈ + Φ_qᵀ λ = g, and a code cell that assigns M and g as expressions of the model.
+
+    They are not derived in the notebook. The cell of `_write_run_comparison` solves the system numerically.
+    """
+    note = "The forces of joints with play and of set-valued friction are added to g by the simulator."
+    added_forces_text = note if model.clearances or model.frictions else ""
     yield (
         "markdown",
         (
             "## The equation of motion\n\n$$ M \\ddot q + \\Phi_q^{\\mathsf T} \\lambda = g, \\qquad "
             "\\Phi_q \\ddot q = \\gamma $$\n\nM is diagonal, as the coordinates are those of the centres of mass; g "
-            f"contains gravity and the force elements. {more}".rstrip()
+            f"contains gravity and the force elements. {added_forces_text}".rstrip()
         ),
     )
     masses = [format_expression(mass, model, names) for mass in model.masses]

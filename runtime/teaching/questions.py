@@ -277,28 +277,28 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
         clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
     }
     used = {name.text for name in notation.names.values()}
-    base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
+    base = next(letter for letter in ("s", "u", "w", "z") if not {letter, f"{letter}_1"} & used)
     steps = {
         clamp: sp.Symbol(base if len(progress_of) == 1 else f"{base}_{k}") for k, clamp in enumerate(progress_of, 1)
     }
-    inner = value.xreplace(steps)
-    if not steps or inner.has(sp.Max, sp.Min, Select):
+    driven_value = value.xreplace(steps)
+    if not steps or driven_value.has(sp.Max, sp.Min, Select):
         return []
     rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_of.items()}
     for _ in range(driven.index(symbol)):
-        inner = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inner)))
+        driven_value = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(driven_value)))
     names = {s: Formula(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
-    shown = [
+    step_equations = [
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
         for clamp, progress in progress_of.items()
     ]
     outside_text = " and is constant before and after" if driven.index(symbol) else ", with 0 before and 1 after"
     terms = step_notation.format_terms(
-        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inner)))
+        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(driven_value)))
     )
     return [
-        *shown,
+        *step_equations,
         make_paragraph(f"which increases from 0 to 1{outside_text}:"),
         Equation(step_notation.format_expression(symbol), terms),
     ]
@@ -358,9 +358,13 @@ def _make_acceleration_question(subject: Subject) -> Question:
     k = max(candidates, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
     quantity = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
-    others = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
+    other_positions = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
     requested = [
-        *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
+        *(
+            [make_paragraph("The other bodies are at"), *other_positions, make_paragraph("with the rates")]
+            if other_positions
+            else []
+        ),
         *tabulate_positions(subject, shows_rates=True, of_other_bodies=True),
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
@@ -369,21 +373,21 @@ def _make_acceleration_question(subject: Subject) -> Question:
         ),
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    signs = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
-    shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
+    symbol_names = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
+    shown_rows = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale = float(np.abs(gamma).max())
     errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
             _make_linear_equation(
-                subject, subject.format_number(gamma[r], scale=scale, uncertainty=errors[r]), phi_q[r], signs
+                subject, subject.format_number(gamma[r], scale=scale, uncertainty=errors[r]), phi_q[r], symbol_names
             )
-            for r in shown
+            for r in shown_rows
         ),
         make_paragraph("The accelerations, of centres of mass and of angles, are"),
         *_tabulate_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
-        subject.make_value_equation(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
+        subject.make_value_equation(symbol_names[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
     coordinate = subject.simulation.source.coordinates[k]
     return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
@@ -403,9 +407,11 @@ def _make_linear_equation(subject: Subject, left: Formula, factors: Array, symbo
         order={symbol: k for k, symbol in enumerate(symbols)},
     )
     scale = float(np.abs(factors).max())
-    shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > ROUNDING_TOL * scale]
+    shown_terms = [
+        (float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > ROUNDING_TOL * scale
+    ]
     return Equation(
-        left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown)))
+        left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown_terms)))
     )
 
 
@@ -462,16 +468,18 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
     left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
-    signs = [make_indexed_symbol("lambda", k) for k in range(1, len(model.rows) + 1)]
+    symbol_names = [make_indexed_symbol("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
-    shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
+    shown_rows = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
     blocks: list[Block] = [
         make_paragraph("Coordinate by coordinate ", BALANCE, _format_omission(n), " is, in N and N m,")
     ]
-    for k in shown:
+    for k in shown_rows:
         q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
-        what = Formula(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
-        blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
+        left_side = Formula(
+            rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}"
+        )
+        blocks.append(_make_linear_equation(subject, left_side, phi_q[:, k], symbol_names))
     return [*blocks, make_paragraph("and the multipliers are")]
 
 

@@ -117,14 +117,14 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value
 
     if not is_value_invalid(end) or is_value_invalid(value):
         return end
-    accepted, refused = value, end
+    valid_value, invalid_value = value, end
     for _ in range(N_BISECTIONS):
-        middle = 0.5 * (accepted + refused)
-        accepted, refused = (accepted, middle) if is_value_invalid(middle) else (middle, refused)
+        middle = 0.5 * (valid_value + invalid_value)
+        valid_value, invalid_value = (valid_value, middle) if is_value_invalid(middle) else (middle, invalid_value)
     return (
         0.0
-        if abs(accepted) < BOUND_MARGIN * abs(value) and not is_value_invalid(0.0)
-        else accepted + BOUND_MARGIN * (value - accepted)
+        if abs(valid_value) < BOUND_MARGIN * abs(value) and not is_value_invalid(0.0)
+        else valid_value + BOUND_MARGIN * (value - valid_value)
     )
 
 

@@ -67,7 +67,7 @@ class File:
 
         Raises InputError for a file of the other kind of result, ValueError for any other format.
         """
-        self._file, self._left = file, float(size)
+        self._file, self._bytes_left = file, float(size)
         stored_format = self.read_text_attribute("gudgeon")
         format_name = stored_format.partition("/")[0]
         if format_name in LOADERS and not formats[0].startswith(f"{format_name}/"):
@@ -130,26 +130,27 @@ class File:
     def _get_dataset(self, name: str, length: int | None) -> Any:
         """Return a one-dimensional dataset after checks of its length, storage and size; raise ValueError otherwise.
 
-        Its data must be in this file. Its uncompressed size, over MAX_COMPRESSION if compressed, is subtracted from the
-        bytes of the file that remain, which must not become negative. `length` None allows any length.
+        Its data must be in this file. Its uncompressed size, over MAX_COMPRESSION if compressed, is subtracted from
+        `_bytes_left`, which must not become negative: all datasets together fit in the size of the file. `length` None
+        allows any length.
         """
         import h5py
         from h5py import h5d
 
         group, _, entry_name = name.rpartition("/")
-        item = _get_hard_linked_entry(self._get_group(group) if group else self._file, entry_name)
-        if not isinstance(item, h5py.Dataset) or len(item.shape or ()) != 1:
+        dataset = _get_hard_linked_entry(self._get_group(group) if group else self._file, entry_name)
+        if not isinstance(dataset, h5py.Dataset) or len(dataset.shape or ()) != 1:
             raise ValueError(f"{name} is not a one-dimensional variable")
-        if length is not None and item.shape[0] != length:
-            raise ValueError(f"{name} has {item.shape[0]} values, expected {length}")
-        creation_properties, n_bytes = item.id.get_create_plist(), item.shape[0] * item.dtype.itemsize
+        if length is not None and dataset.shape[0] != length:
+            raise ValueError(f"{name} has {dataset.shape[0]} values, expected {length}")
+        creation_properties, n_bytes = dataset.id.get_create_plist(), dataset.shape[0] * dataset.dtype.itemsize
         if creation_properties.get_layout() == h5d.VIRTUAL or creation_properties.get_external_count():
             raise ValueError(f"{name} is in another file")
         compression_limit = MAX_COMPRESSION if creation_properties.get_nfilters() else 1
-        self._left -= n_bytes / compression_limit
-        if self._left < 0 or item.id.get_storage_size() * compression_limit < n_bytes:
+        self._bytes_left -= n_bytes / compression_limit
+        if self._bytes_left < 0 or dataset.id.get_storage_size() * compression_limit < n_bytes:
             raise ValueError(f"{name} has more values than fit in the file")
-        return item
+        return dataset
 
     def _get_group(self, name: str) -> Any:
         """Return a group. Raises ValueError if there is none, or if it is a link or a dataset."""

@@ -163,7 +163,7 @@ def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose
     """Return rich tables for a terminal, with a column for each scene and a row for each quantity.
 
     Each table has as many columns as fit `width` characters, at least one and at most MAX_SCENE_COLUMNS. `verbose` adds
-    the rows of VERBOSE_ROWS. Only the first table has the title.
+    the rows whose names end as in VERBOSE_ROWS. Only the first table has the title.
     """
     from rich.measure import Measurement
 
@@ -425,7 +425,7 @@ def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, lis
 
 
 def _format_audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the row of the largest value of the audit, as a multiple of its limit, then rows of single checks.
+    """Return the row of the largest value of the audit in each scene, as a multiple of its limit, then a row a check.
 
     A check has a row if its value is MIN_SHOWN_AUDIT or more in any scene. "–": without audit.
     """

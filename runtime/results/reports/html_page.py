@@ -107,7 +107,8 @@ def escape_line(content: str) -> str:
 def build_table(column_names: Sequence[str], rows: Iterable[Sequence[str]], has_text_cells: bool = False) -> str:
     """Return an HTML table of escaped cells; "" without rows.
 
-    `has_text_cells` aligns the cells as words, not as numbers. Empty `column_names` leave out the header.
+    `has_text_cells`: the cells are words, with the CSS class of words instead of that of numbers. Empty `column_names`
+    leave out the header.
     """
     body_rows = "".join(
         f"<tr>{''.join(f'<td>{escape(escape_invisible(cell))}</td>' for cell in row)}</tr>" for row in rows

@@ -145,9 +145,10 @@ def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -
 
 
 def _list_joints_with_play(source: KernelSource, with_wear: bool = False) -> list[str]:
-    """Return the names of the joints with play of a scene; with `with_wear` only those whose wear can be measured.
+    """Return the names of the joints with play of a scene, in the order of the columns of `Batch.peaks`.
 
-    Those have a known contact force and are not corners of a guide.
+    With `with_wear` only those whose wear can be measured: no corners of a guide, and with a contact force that the
+    clearance columns contain (`has_known_contact_force`).
     """
     return [
         joint.name
@@ -235,17 +236,17 @@ def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end:
     has 0 as number, else NaN.
     """
     joint, is_count = _list_joints_with_play(batch.source).index(measure.of), measure.statistic == "impacts"
-    out = _make_default_values(batch, is_count, begin)
+    values = _make_default_values(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         contacts = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
         if is_count:
-            out[i] += len(contacts)
+            values[i] += len(contacts)
         elif len(contacts):
-            out[i] = (
+            values[i] = (
                 contacts["t_on"].min() if measure.statistic == "first_impact" else np.abs(contacts["deltadot"]).max()
             )
-    return out
+    return values
 
 
 def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
@@ -253,16 +254,16 @@ def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: A
 
     begin, end: of the windows, s, (n,) each. A run without an occurrence has 0 as number, NaN as time.
     """
-    number, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
-    out = _make_default_values(batch, is_count, begin)
+    event_index, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
+    values = _make_default_values(batch, is_count, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
-        t = events["t"][events["event"] == number]
+        t = events["t"][events["event"] == event_index]
         t = t[(t >= begin[i]) & (t <= end[i])]
         if is_count:
-            out[i] += len(t)
+            values[i] += len(t)
         elif len(t):
-            out[i] = t.min()
-    return out
+            values[i] = t.min()
+    return values
 
 
 def _make_default_values(batch: Batch, is_count: bool, begin: Array) -> Array:

@@ -214,12 +214,14 @@ def check_constant_settings(study: StudyFile) -> None:
     Expressions that depend on parameters are checked for each run later.
     """
     constants: dict[str, float] = {}
-    for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
-        if written is None or (value := evaluate_constant(written, constants)) is None:
+    for name, expression in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
+        if expression is None or (value := evaluate_constant(expression, constants)) is None:
             continue
-        wrong, expected = find_impossible_values(name, np.rint([value]) if name == "output" else np.array([value]))
-        if wrong.any():
-            raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
+        is_impossible, expected = find_impossible_values(
+            name, np.rint([value]) if name == "output" else np.array([value])
+        )
+        if is_impossible.any():
+            raise BadValueError(f"{name} is {value:g}", expression.text.where, f"expected {expected}")
         constants |= {name: value} if name == "t_end" else {}
     last = constants.get("t_end", np.inf)
     for name, window in study.windows.items():

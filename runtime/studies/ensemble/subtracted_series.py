@@ -66,26 +66,27 @@ def load_subtracted_scene(job: Job, scene: str) -> Simulation:
 
 
 def find_ineffective_parameters(source: KernelSource) -> Array:
-    """Return a flag for each entry of the parameter vector p, (n_p,): whether it does not affect the motion.
+    """Return a flag for each entry of the parameter vector p, (n_p,): whether it does not affect the motion or outputs.
 
     Such an entry is a named parameter that no expression of time, of the motion or of an output contains. Quantities
     that depend on it, such as lengths, are entries of p themselves, so their own flags are False.
     """
     trees = [json.loads(expression.tree) for expression in source.written] + list(source.outputs.values())
-    read = {
+    used_addresses = {
         f"parameters.{name.path.removeprefix('parameters.')}"
         for tree in trees
         for name in iterate_names(from_json(tree))
     }
-    is_unread = [
-        parameter.address.startswith("parameters.") and parameter.address not in read for parameter in source.slots
+    is_unused = [
+        parameter.address.startswith("parameters.") and parameter.address not in used_addresses
+        for parameter in source.slots
     ]
-    return np.array(is_unread + [False] * len(source.derived), dtype=bool)
+    return np.array(is_unused + [False] * len(source.derived), dtype=bool)
 
 
 @dataclass(frozen=True, eq=False)
 class RunInputs:
-    """Runs of another scene with keys by which equal runs are recognised (memoization)."""
+    """Inputs of runs of another scene, with keys by which equal runs are recognised (memoization)."""
 
     columns: Mapping[str, Array]  # parameters of the other scene, (n,)
     full_p: Array  # (n, n_p)
@@ -140,12 +141,12 @@ def compute_subtracted_series(
     out, since the batch itself runs their scene.
     """
     series_by_scene: dict[str, dict[str, Array]] = {}
-    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
-    for scene in list_subtracted_scenes(expected, batch.source.scene):
+    sample_measures = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
+    for scene in list_subtracted_scenes(sample_measures, batch.source.scene):
         simulation = load_subtracted_scene(job, scene)
         common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()
         names = dict.fromkeys(
-            str(measure.of) for measure in expected if measure.origin == scene and measure.of in common_names
+            str(measure.of) for measure in sample_measures if measure.origin == scene and measure.of in common_names
         )
         if names:
             series_by_scene[scene] = _compute_series_at_samples(
@@ -164,7 +165,7 @@ def _compute_series_at_samples(
     `failures`; runs that failed before are left out.
     """
     times = batch.kept["t"]
-    out = {name: np.full(times.shape, np.nan) for name in names}
+    series_by_name = {name: np.full(times.shape, np.nan) for name in names}
     valid_runs = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
     run_inputs = _build_run_inputs(simulation, table, runs, [row[np.isfinite(row)] for row in times])
     common_key = (
@@ -192,12 +193,12 @@ def _compute_series_at_samples(
                 _recent.put(keys[i], series)
     for i in valid_runs:
         for name, values in (cached[keys[i]] or {}).items():
-            out[name][i, np.isfinite(times[i])] = values
-    return out
+            series_by_name[name][i, np.isfinite(times[i])] = values
+    return series_by_name
 
 
 def _build_run_inputs(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunInputs:
-    """Return what identifies these runs of a job as runs of another scene (`simulation`): equal keys, equal motions.
+    """Return the inputs of these runs of a job as runs of another scene (`simulation`); equal keys mean equal motions.
 
     runs: indices in the job. times: sample times, one array each. Parameters that the other scene lacks are left out,
     and those that do not affect the motion are 0 in the key. The step is None for a scene without degrees of freedom.
@@ -291,8 +292,8 @@ def _simulate_subtracted_series(
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        each = [_simulate_subtracted_series(job, simulation, run_inputs, [i], names) for i in runs]
-        return {i: series for series_by_run in each for i, series in series_by_run.items()}
+        series_by_single_run = [_simulate_subtracted_series(job, simulation, run_inputs, [i], names) for i in runs]
+        return {i: series for series_by_run in series_by_single_run for i, series in series_by_run.items()}
     if batch.interrupted:
         raise KeyboardInterrupt
     failed = {failure.run: str(failure.error) for failure in batch.failures}

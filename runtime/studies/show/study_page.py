@@ -102,8 +102,8 @@ def iterate_part_sections(
     """
     study = data.study
     yield "Varied quantities", build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
-    failed = ((str(count), kind, message) for kind, count, message in data.iterate_failures())
-    yield "Failed runs", build_table(("runs", "reason", "first failed run"), failed, True)
+    failure_rows = ((str(count), kind, message) for kind, count, message in data.iterate_failures())
+    yield "Failed runs", build_table(("runs", "reason", "first failed run"), failure_rows, True)
     yield "Notes", build_paragraphs(study.notes)
     yield "Measures", _format_measure_table(data)
     try:
@@ -142,21 +142,27 @@ def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
     for name, coordinate in data.dataset.coords.items():
         if name in ("time", "sample"):
             continue
-        over = ", ".join(map(data.get_title, coordinate.dims)) if coordinate.dims != (name,) else ""
-        unit, message = str(coordinate.attrs.get("units", "")), str(coordinate.attrs.get("long_name", ""))
+        dimensions_text = ", ".join(map(data.get_title, coordinate.dims)) if coordinate.dims != (name,) else ""
+        unit, meaning = str(coordinate.attrs.get("units", "")), str(coordinate.attrs.get("long_name", ""))
         values = np.ravel(coordinate.values)
         if values.dtype.kind in "OU":
-            yield data.get_title(name), over, _list_values([data.get_title(value) for value in values]), "", message
+            yield (
+                data.get_title(name),
+                dimensions_text,
+                _list_values([data.get_title(value) for value in values]),
+                "",
+                meaning,
+            )
             continue
         if written := data.get_written_values(str(name)):
-            yield data.get_title(name), over, _list_values(list(written)), "", message
+            yield data.get_title(name), dimensions_text, _list_values(list(written)), "", meaning
             continue
         factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
         is_short = len(values) <= MAX_SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         shown_values = values if is_short or not values.size else np.array([values.min(), values.max()])
-        words = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
-        listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} values"
-        yield data.get_title(name), over, listed, unit_text, message
+        value_texts = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
+        values_text = ", ".join(value_texts) if is_short else f"{' … '.join(value_texts)}, {len(values)} values"
+        yield data.get_title(name), dimensions_text, values_text, unit_text, meaning
 
 
 def _list_values(words: list[str]) -> str:
@@ -176,11 +182,11 @@ def _format_measure_table(data: StudyData) -> str:
         return ""
     dims, units, has_spread = [], [], False
     for name in names:
-        shape = data.dataset[name]
-        dims = [str(dim) for dim in shape.dims if dim not in POOLED_DIMENSIONS]
-        has_spread = any(dim in POOLED_DIMENSIONS for dim in shape.dims)
+        variable = data.dataset[name]
+        dims = [str(dim) for dim in variable.dims if dim not in POOLED_DIMENSIONS]
+        has_spread = any(dim in POOLED_DIMENSIONS for dim in variable.dims)
         factor, unit = choose_plot_unit(
-            float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.get_unit(name)
+            float(np.nanmax(np.abs(np.nan_to_num(variable.values)), initial=0.0)), data.get_unit(name)
         )
         units.append(unit)
         for coordinates, values in data.iterate_spreads(name):
@@ -189,14 +195,16 @@ def _format_measure_table(data: StudyData) -> str:
                 omitted += name == names[0]
                 continue
             rows.setdefault(key, []).append(_format_spread(values * factor, has_spread))
-    head = [data.format_value_labels(dim)[1] for dim in dims]
-    head += [format_label(data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
-    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in POOLED_DIMENSIONS]
-    message = [
-        f"median (quartiles) over {', '.join(over)}; n: number of runs with a value, if some have none"
+    column_names = [data.format_value_labels(dim)[1] for dim in dims]
+    column_names += [format_label(data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
+    pooled_titles = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in POOLED_DIMENSIONS]
+    footnotes = [
+        f"median (quartiles) over {', '.join(pooled_titles)}; n: number of runs with a value, if some have none"
     ] * has_spread
-    message += [f"{omitted} further rows are in the dataset"] * bool(omitted)
-    return build_table(head, ([*key, *cells] for key, cells in rows.items())) + build_paragraphs(message, "g-quiet")
+    footnotes += [f"{omitted} further rows are in the dataset"] * bool(omitted)
+    return build_table(column_names, ([*key, *cells] for key, cells in rows.items())) + build_paragraphs(
+        footnotes, "g-quiet"
+    )
 
 
 def _format_spread(values: Any, has_spread: bool) -> str:
@@ -239,8 +247,8 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
             coordinates = {"scene": scene} if scene else {}
             if not np.nan_to_num(data.select_measure(name, coordinates).values).any():  # all values are NaN or 0
                 continue
-            message = ", ".join(filter(None, (f"{data.get_title(name)}: median", data.get_title(scene))))
-            yield message, partial(plot.heat_map, name, *varied[:2], at=coordinates)
+            caption = ", ".join(filter(None, (f"{data.get_title(name)}: median", data.get_title(scene))))
+            yield caption, partial(plot.heat_map, name, *varied[:2], at=coordinates)
 
 
 def _describe_pooled_runs(data: StudyData, measure: Any) -> str:
@@ -269,8 +277,8 @@ def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
         over_fractions = t.ndim > 1
         if over_fractions and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
-        message = f"{data.get_title(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
+        caption = f"{data.get_title(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
         yield (
-            message + ", over fractions of the run" * over_fractions,
+            caption + ", over fractions of the run" * over_fractions,
             partial(plot.bands, name, line_dimension, share=over_fractions),
         )

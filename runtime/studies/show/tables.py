@@ -69,7 +69,7 @@ def write_table_and_figure(
     Returns the written files, and the first OutputError or None instead of raising it: the caller raises it after
     printing, so that results are not lost with a full disk.
     """
-    written, failed = [], None
+    written_paths, first_error = [], None
 
     def save_png(path: Path) -> None:
         """Draw the figure and save it as PNG; matplotlib is imported here only."""
@@ -83,10 +83,10 @@ def write_table_and_figure(
     for path, write in steps:
         try:
             write(path)
-            written.append(path)
+            written_paths.append(path)
         except OutputError as error:
-            failed = failed or error
-    return written, failed
+            first_error = first_error or error
+    return written_paths, first_error
 
 
 def format_fraction(value: float) -> str:
