@@ -213,7 +213,9 @@ class SampleAudit:
         """Return the evaluation of all pseudo-random samples, joined from the blocks of `add_samples`."""
         if len(self.drawn) == 1:
             return select_evaluated_rows(self.drawn[0], self.samples)
-        return Evaluation(*map(np.concatenate, zip(*(vars(one).values() for one in self.drawn), strict=True)))
+        return Evaluation(
+            *map(np.concatenate, zip(*(vars(evaluation).values() for evaluation in self.drawn), strict=True))
+        )
 
 
 def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Array) -> NDArray[np.bool_]:
@@ -222,10 +224,10 @@ def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Arra
     Whole turns count as differences here, so a run may be reported without a fault. Shapes: parameter values p (n, …),
     `start` (n, 2 n_q), mechanism sizes (n,) in m.
     """
-    off = np.zeros(len(p))
+    distances = np.zeros(len(p))
     for k, given in list_given_coordinates(source):
-        off = np.maximum(off, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
-    return np.asarray(off > START_TOL * size)
+        distances = np.maximum(distances, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
+    return np.asarray(distances > START_TOL * size)
 
 
 def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
@@ -244,9 +246,9 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     states = np.array((problem.q, problem.v, trajectory.q[0], trajectory.v[0]))  # of bodies: x, y, theta
     states[2:] -= states[:2]
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
-    far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
-    off = max(off, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
-    worst = max(off / (START_TOL * (size + far)), slower / max(START_RATES_TOL * fast, 1e-300))
+    far, fast, distance, slower = (max(max_x, max_y, size * angle) for max_x, max_y, angle in largest)
+    distance = max(distance, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
+    worst = max(distance / (START_TOL * (size + far)), slower / max(START_RATES_TOL * fast, 1e-300))
     yield Finding("start", worst, float(trajectory.t[0]), "")
 
 
@@ -255,12 +257,12 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
 
     Angles are multiplied by `size` (m).
     """
-    off = 0.0
+    distance = 0.0
     for k, given in list_given_coordinates(source):
         miss = abs(float(q[k] - p[given]))
         turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
-        off = max(off, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
-    return off
+        distance = max(distance, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
+    return distance
 
 
 @cache_by_values

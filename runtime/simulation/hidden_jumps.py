@@ -175,9 +175,9 @@ def _format_jump_error(jump: Jump, reason: str) -> str:
             f"drive {jump.drive}: it jumps by {jump.size:.4g} at t = {jump.t:.6g} s: no linkage can follow it\n"
             "  give where and mod branches with equal values at their switching points, or end the run before"
         )
-    what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
+    jump_text = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
     return (
-        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its expression does not show: {reason}\n"
+        f"drive {jump.drive}: {jump_text} at t = {jump.t:.6g} s, which its expression does not show: {reason}\n"
         "  write it with abs, min, max or ramp, whose switching points are found, or end the run before"
     )
 

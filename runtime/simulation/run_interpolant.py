@@ -258,7 +258,9 @@ class RunInterpolant:
             h, max_count = np.diff(self.steps.t), 2 if self.has_films else 1  # neighbours on each side
             before, after = (self._count_neighbours(h, k, direction, max_count) for direction in (-1, 1))
             ranges = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
-            fit = min((self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda one: one[0])
+            fit = min(
+                (self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda fit_of_range: fit_of_range[0]
+            )
             self.rates_cache = k, (*fit[1:], legint(fit[3]))
         interpolant: tuple[float, float, Any, Any] = self.rates_cache[1]
         return interpolant

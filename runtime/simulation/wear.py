@@ -156,9 +156,11 @@ def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> f
     and `hardness_name` of the arguments are for messages. Raises InputError for values that are not positive.
     """
 
-    def parse_positive(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
+    def parse_positive(value: Any, argument_name: str, exponents: tuple[int, int, int]) -> float:
         """Return a positive number from a text with a unit or a number."""
-        return check_positive(parse_quantity(value, what, exponents) if isinstance(value, str) else value, what)
+        return check_positive(
+            parse_quantity(value, argument_name, exponents) if isinstance(value, str) else value, argument_name
+        )
 
     if hardness is None:
         return parse_positive(k, k_name, SPECIFIC_RATE)

@@ -315,15 +315,15 @@ def _find_clamped_progress(expression: sp.Max) -> sp.Expr | None:
 
 def _differentiate_in_time(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
     """Return the time derivative of a product whose symbols have these `rates`, constant factors first."""
-    factor, rest = term.as_independent(*rates, as_Add=False)
-    terms = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
-    return sp.Add(sp.diff(factor, t) * rest, *terms)
+    factor, dependent_part = term.as_independent(*rates, as_Add=False)
+    terms = (factor * rate * sp.expand(sp.diff(dependent_part, s)) for s, rate in rates.items())
+    return sp.Add(sp.diff(factor, t) * dependent_part, *terms)
 
 
 def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
     """Return a product as a factor times the expanded polynomial in the progress symbols `steps`."""
-    factor, rest = term.as_independent(*steps, as_Add=False)
-    return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
+    factor, dependent_part = term.as_independent(*steps, as_Add=False)
+    return sp.Mul(factor, sp.expand(dependent_part), evaluate=False) if dependent_part != 1 else term
 
 
 def make_indexed_symbol(quantity: str, index: int) -> Formula:
@@ -428,7 +428,7 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
         return
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
-    F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
+    F = [float(drawn.run[f"{name}.{component}"][-1]) for component in ("Fx", "Fy", "F")]
     requested: list[Block] = []
     if subject.model.degrees_of_freedom:
         requested.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))

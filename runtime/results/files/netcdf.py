@@ -214,7 +214,10 @@ def build_dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 
         raise UnknownNameError(f"a result has no part {part!r}", hint=f"there are: {', '.join((SERIES, *PARTS))}")
     table = next(table for table in build_tables(run) if table.group == group)
-    variables: dict[str, Any] = {item.name: (table.dimension, item.values, item.attributes) for item in table.variables}
+    variables: dict[str, Any] = {
+        table_variable.name: (table.dimension, table_variable.values, table_variable.attributes)
+        for table_variable in table.variables
+    }
     return xarray.Dataset(variables, attrs=dict(table.attributes))
 
 

@@ -151,9 +151,9 @@ def replace_non_finite_numbers(value: Any) -> Any:
     Tuples become lists, NumPy scalars Python numbers.
     """
     if isinstance(value, dict):
-        return {key: replace_non_finite_numbers(item) for key, item in value.items()}
+        return {key: replace_non_finite_numbers(element) for key, element in value.items()}
     if isinstance(value, (list, tuple)):
-        return [replace_non_finite_numbers(item) for item in value]
+        return [replace_non_finite_numbers(element) for element in value]
     if hasattr(value, "item"):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -264,9 +264,9 @@ def _format_values_hint(coordinate: Coordinate) -> str:
     values = [
         str(value) if isinstance(value, str) else f"{value:.6g}" for value in np.atleast_1d(coordinate.values).tolist()
     ]
-    more = ", …" if len(values) > MAX_LISTED else ""
+    ellipsis = ", …" if len(values) > MAX_LISTED else ""
     shown = f" ({coordinate.unit})" if coordinate.unit else ""
-    return f"expected one of: {', '.join(values[:MAX_LISTED])}{more}{shown}"
+    return f"expected one of: {', '.join(values[:MAX_LISTED])}{ellipsis}{shown}"
 
 
 def _build_checks(plans: Plans, statement: TrendStatement) -> Iterator[Check]:

@@ -57,7 +57,7 @@ def group_notes(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, 
 def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
     """Return the notes of several groups of runs as one table by kind: counts add up, the first run is the example."""
     merged_notes: dict[str, Note] = {}
-    for kind, note in (item for table in note_tables for item in table.items()):
+    for kind, note in (kind_and_note for table in note_tables for kind_and_note in table.items()):
         before = merged_notes.get(kind)
         first = note if before is None or note.run < before.run else before
         merged_notes[kind] = Note(note.runs + (before.runs if before else 0), first.run, first.text)

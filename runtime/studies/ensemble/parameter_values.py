@@ -61,7 +61,7 @@ def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> Run
     for source in sources:
         if (parameter := find_parameter(source, name)) is not None:
             return parameter
-    every = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
+    addresses = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
     try:
         read_given_parameters(
             sources[0], {str(name): 0.0}
@@ -69,7 +69,7 @@ def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> Run
     except InputError as error:
         if "has the address" not in error.message:
             raise type(error)(error.message, name.where, error.hint) from None
-    raise make_unknown_name_error("parameter", name, every, name.where)
+    raise make_unknown_name_error("parameter", name, addresses, name.where)
 
 
 def parse_parameter_value(text: Text, parameter: RuntimeParameter) -> float | str:

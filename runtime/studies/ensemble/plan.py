@@ -182,8 +182,8 @@ class Plan:
         if self.deviations is None:
             return {}, {}
         cell = indices_by_dimension.get("ensemble", np.zeros(n_runs, dtype=int)), indices_by_dimension["start"]
-        several = self.deviations.relative, self.deviations.absolute
-        relative, absolute = ({name: values[cell] for name, values in ensemble.items()} for ensemble in several)
+        both_deviations = self.deviations.relative, self.deviations.absolute
+        relative, absolute = ({name: values[cell] for name, values in ensemble.items()} for ensemble in both_deviations)
         return relative, absolute
 
     @cached_property

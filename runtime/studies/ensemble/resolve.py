@@ -441,8 +441,11 @@ def draw_deviations(starts: Starts, names: list[str]) -> Array:
     They are uniform in [−1, 1], or standard normal, and depend on the seed only. All cells of the study use the same
     ones (common random numbers), so that runs can be compared start by start.
     """
-    each = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
+    generators = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
     shape = (starts.count, len(names))
     return np.stack(
-        [rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape) for rng in each]
+        [
+            rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape)
+            for rng in generators
+        ]
     )

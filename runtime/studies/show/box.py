@@ -116,7 +116,7 @@ def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
     groups: dict[tuple[Status, str], list[Cell]] = {}
     for cell in cells:
         groups.setdefault((cell.status, remove_numbers(cell.reason)), []).append(cell)
-    sorted_groups = sorted(groups.items(), key=lambda item: (SEVERITY.index(item[0][0]), -len(item[1]), item[0][1]))
+    sorted_groups = sorted(groups.items(), key=lambda group: (SEVERITY.index(group[0][0]), -len(group[1]), group[0][1]))
     return [(status, reason, cells_of_group) for (status, reason), cells_of_group in sorted_groups]
 
 

@@ -181,10 +181,10 @@ def print_failures(console: Console, mechanism: str, verdicts: VerdictMap | Verd
     """
     laws = list_typed_law_files()
     for cell in cells:
-        specified = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
-        console.print(f"  {VERDICT_SIGNS[cell.status]} {specified}", markup=False, emoji=False)
-        again = format_run_command(mechanism, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
-        console.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
+        description = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
+        console.print(f"  {VERDICT_SIGNS[cell.status]} {description}", markup=False, emoji=False)
+        command = format_run_command(mechanism, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
+        console.print(f"    {command}", markup=False, emoji=False, soft_wrap=True)
 
 
 def describe_interruption(verdicts: VerdictMap | VerdictBox) -> str:

@@ -66,8 +66,8 @@ def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_fi
             continue
         placeholder = page_figures.add_placeholder(f"{name_prefix}-{k}", draw_axes)
         parts.append(f"<figure>{placeholder}<figcaption>{escape_line(caption)}</figcaption></figure>")
-    more = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
-    return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
+    omission_html = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
+    return f"<div class='g-figures'>{''.join(parts)}</div>{omission_html}" if parts else ""
 
 
 def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:

@@ -157,7 +157,7 @@ class StudyData:
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            words = [str(one) for one in values]
+            words = [str(coordinate_value) for coordinate_value in values]
             if not isinstance(value, str) or value not in words:
                 raise make_missing_name_error(f"{name} has no {shorten_value(value)}", str(value), tuple(words))
             return words.index(value)
