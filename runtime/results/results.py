@@ -439,9 +439,9 @@ def make_evaluated_samples(
     work: Array,
     discrete_states: Array,
     state: Array,
-    parts: frozenset[str],
+    field_names: frozenset[str],
 ) -> EvaluatedSamples:
-    """Return a result of samples as C stores them; of an Evaluation it can evaluate only the fields named in `parts`.
+    """Return a result of samples as C stores them; of an Evaluation it can evaluate only the fields `field_names`.
 
     `work` (N, 3); `discrete_states` (N, n_memory): approach speeds, friction modes, internal states; `state` (N,
     n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
@@ -463,7 +463,7 @@ def make_evaluated_samples(
         work=np.full_like(work, np.nan) if source.massless else work,
         impacts=np.zeros(0, IMPACT_DTYPE),
         diagnostics=cast(Diagnostics, None),
-        parts=parts,
+        parts=field_names,
     )
 
 

@@ -358,13 +358,9 @@ def _make_acceleration_question(subject: Subject) -> Question:
     k = max(candidates, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
     quantity = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
-    other_positions = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
+    others = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
     requested = [
-        *(
-            [make_paragraph("The other bodies are at"), *other_positions, make_paragraph("with the rates")]
-            if other_positions
-            else []
-        ),
+        *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
         *tabulate_positions(subject, shows_rates=True, of_other_bodies=True),
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
@@ -407,11 +403,9 @@ def _make_linear_equation(subject: Subject, left: Formula, factors: Array, symbo
         order={symbol: k for k, symbol in enumerate(symbols)},
     )
     scale = float(np.abs(factors).max())
-    shown_terms = [
-        (float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > ROUNDING_TOL * scale
-    ]
+    shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > ROUNDING_TOL * scale]
     return Equation(
-        left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown_terms)))
+        left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown)))
     )
 
 
@@ -476,10 +470,8 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
     ]
     for k in shown_rows:
         q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
-        left_side = Formula(
-            rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}"
-        )
-        blocks.append(_make_linear_equation(subject, left_side, phi_q[:, k], symbol_names))
+        side = Formula(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
+        blocks.append(_make_linear_equation(subject, side, phi_q[:, k], symbol_names))
     return [*blocks, make_paragraph("and the multipliers are")]
 
 

@@ -101,7 +101,7 @@ class Subject:
         return Equation(left, (Formula(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 
-def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed: int) -> Subject:
+def make_subject(model: Model, simulation: Simulation, exercise_data: ExerciseData, seed: int) -> Subject:
     """Return the subject of a sheet; its questions treat at most two joints and one drive, drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     owners_by_kind = {
@@ -114,7 +114,7 @@ def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed:
             sorted(rng.permutation(len(owners_by_kind[kind]))[:max_count])
         ]
     ]
-    return Subject(model, make_notation(model), simulation, data, rng, tuple(selected))
+    return Subject(model, make_notation(model), simulation, exercise_data, rng, tuple(selected))
 
 
 def list_units(scene: Scene) -> dict[str, tuple[str, float]]:

@@ -214,10 +214,7 @@ def build_dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 
         raise UnknownNameError(f"a result has no part {part!r}", hint=f"there are: {', '.join((SERIES, *PARTS))}")
     table = next(table for table in build_tables(run) if table.group == group)
-    variables: dict[str, Any] = {
-        table_variable.name: (table.dimension, table_variable.values, table_variable.attributes)
-        for table_variable in table.variables
-    }
+    variables: dict[str, Any] = {item.name: (table.dimension, item.values, item.attributes) for item in table.variables}
     return xarray.Dataset(variables, attrs=dict(table.attributes))
 
 
@@ -329,13 +326,11 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
 
 def _check_names_and_units(source: KernelSource) -> None:
     """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
-    named_parts: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
-    named_parts += source.points
+    parts: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    parts += source.points
     choices = [choice for slot in source.slots for choice in slot.words]
     units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
-    names = (
-        [named_part.name for named_part in named_parts] + [slot.address for slot in source.slots] + [*source.outputs]
-    )
+    names = [part.name for part in parts] + [slot.address for slot in source.slots] + [*source.outputs]
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is not a valid name")
@@ -361,10 +356,7 @@ def _read_series(file: File, name: str, n_samples: int) -> Array:
 
 
 def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
-    """Return p (with derived parameters), given and is_given of the file, as in Result.
-
-    Raises ValueError if an overridden value differs from that in p.
-    """
+    """Return p with derived parameters, given and is_given. Raises ValueError if a given value differs from p."""
     n_parameters, n_derived = len(source.slots), len(source.derived)
     if file.is_old:
         p = file.read_numbers("parameters.prepared", n_parameters + n_derived)
@@ -422,10 +414,7 @@ def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
 
 
 def rebuild_samples(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> dict[str, Any]:
-    """Return q, v, accelerations, state, memory and work of a Result by name, rebuilt from samples of their series.
-
-    `state` has the contact codes, `memory` the discrete states, as fields of Result.
-    """
+    """Return q, v, accelerations, state (contact codes), memory (discrete states), work of a Result by name."""
     q, v, a = (_read_motion(source, stored_series, n_samples, order) for order in range(3))
     return {
         "q": q,

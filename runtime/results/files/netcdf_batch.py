@@ -190,10 +190,7 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
 
 
 def _build_table_of_runs(batch: Batch, group: str) -> Table:
-    """Return a table of netcdf.PARTS, such as "impacts", of all runs one after the other, with a column of run numbers.
-
-    Runs that did not begin have no rows. Raises UnknownNameError for another name.
-    """
+    """Return a table of netcdf.PARTS of all runs that began, with a column of run numbers. Raises UnknownNameError."""
     if group not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {group!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and group in ("impacts", "events"):

@@ -233,16 +233,16 @@ def _build_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return rows
 
 
-def _format_peak_cell(value: float, unit: str, t: float, max_magnitudes: Mapping[str, float]) -> str:
+def _format_peak_cell(peak: float, unit: str, t: float, max_magnitudes: Mapping[str, float]) -> str:
     """Return a peak and its time as a cell, "–" if it is not known, "≈ 0" if it is rounding error.
 
     `max_magnitudes` has the largest magnitude of the run by unit.
     """
-    if math.isfinite(t) and _is_rounding_error(abs(value), unit, max_magnitudes):
+    if math.isfinite(t) and _is_rounding_error(abs(peak), unit, max_magnitudes):
         return ZERO_CELL
-    factor, unit_text = choose_plot_unit(value, unit)
+    factor, unit_text = choose_plot_unit(peak, unit)
     time_text = format_quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
-    return f"{value * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
+    return f"{peak * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
 
 
 def _is_rounding_error(magnitude: float, unit: str, max_magnitudes: Mapping[str, float]) -> bool:

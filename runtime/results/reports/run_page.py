@@ -203,9 +203,9 @@ def _format_range_cell(quantiles: Mapping[str, float], unit: str) -> str:
     return " … ".join(format_quantity(quantiles[name], unit) for name in ("min", "median", "max"))
 
 
-def _format_ratio(value: float, ideal: float) -> str:
+def _format_ratio(ratio: float, ideal: float) -> str:
     """Return the ratio of a value to the ideal one: ", with play 1.2 times that"; "" if the ideal value is 0."""
-    return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
+    return f", with play {ratio / ideal:.3g} times that" if ideal > 0.0 else ""
 
 
 def build_energy_rows(report: Mapping[str, Any]) -> Rows:

@@ -162,9 +162,9 @@ def _format_error_cell(scene_bench: SceneBench, measure: str, error: float) -> s
     )
 
 
-def _format_error(value: float) -> str:
+def _format_error(error: float) -> str:
     """Return an error as text with two digits, "1.2e-06"; "–" for NaN."""
-    return "–" if math.isnan(value) else f"{value:.1e}"
+    return "–" if math.isnan(error) else f"{error:.1e}"
 
 
 def _build_run_time_table(scene_bench: SceneBench) -> Table:

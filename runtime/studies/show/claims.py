@@ -282,9 +282,9 @@ def _format_probability_cell(row: Row) -> str:
     return f"{message} ({_format_probability(row['low'])} … {_format_probability(row['high'])})"
 
 
-def _format_probability(value: Any) -> str:
+def _format_probability(probability: Any) -> str:
     """Return a probability as text with two digits; "–" for None or NaN."""
-    return "–" if _is_missing(value) else f"{value:.2g}"
+    return "–" if _is_missing(probability) else f"{probability:.2g}"
 
 
 def _join_distinct(values: Iterable[str]) -> str:

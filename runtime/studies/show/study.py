@@ -180,9 +180,9 @@ def _iterate_measure_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, st
         yield name, plan.units[name], row | {"nan": int(values.size - finite_values.size)}
 
 
-def _format_duration(value: float) -> str:
+def _format_duration(seconds: float) -> str:
     """Return a duration (s) as text, in days, h or min from twice that unit on, else as `format_seconds`: "3.5 h"."""
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
-        if value >= 2 * factor:
-            return f"{value / factor:.3g} {unit}"
-    return format_seconds(value)
+        if seconds >= 2 * factor:
+            return f"{seconds / factor:.3g} {unit}"
+    return format_seconds(seconds)
