@@ -56,7 +56,10 @@ PERIOD_TOL = 1e-6  # of a period: by which a time may differ from a multiple of 
 
 
 def explain_invalid_variational_equation(source: KernelSource) -> str:
-    """Return why the Jacobian does not describe all motions of neighbouring states of a scene; "" where it does."""
+    """Return why the variational equation does not describe the motions of neighbouring states; "" where it does.
+
+    It has no Jacobian, or misses internal states of laws, sticking, impulses of drives or jumps of forces.
+    """
     if source.reason_without_jacobian:
         return source.reason_without_jacobian
     if source.states:
@@ -133,9 +136,10 @@ def compute_lyapunov_exponent(
 
 
 def explain_slow_variational_equation(source: KernelSource) -> str:
-    """Return why by="auto" uses a second run although the tangent would be valid; "" where the tangent is fast.
+    """Return why by="auto" uses a second run although the variational equation is valid; "" where that is fast.
 
-    The reason is a stiff film, on which the tangent needs as many panels as there are steps.
+    The reason is a film, which is stiff: the collocation of the variational equation needs as many panels as the run
+    has steps.
     """
     films = [joint.name for joint in source.clearances if joint.film]
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""

@@ -93,17 +93,18 @@ class PeakSearch:
     def list_extremes(self) -> tuple[Extremes, ...]:
         """Return the extremes of each series, then those of errors against the other scene if it ran to the end.
 
+        Peaks are stored by (series, whether it is the error, sign): for the sign −1 the largest of the negated values.
         Values and times are NaN for series without a finite value.
         """
         unknown = (math.nan, math.nan)
-        message = []
-        for name, error in self.kinds:
-            if error and self.compared_scene and self.compared_scene.failure_reason:
+        extremes = []
+        for name, is_error in self.kinds:
+            if is_error and self.compared_scene and self.compared_scene.failure_reason:
                 continue
-            high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
-            against = self.compared_scene.scene if error and self.compared_scene else ""
-            message.append(Extremes(name, self.interpolant.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
-        return tuple(message)
+            high, low = (self.best.get((name, is_error, sign), unknown) for sign in (1, -1))
+            against = self.compared_scene.scene if is_error and self.compared_scene else ""
+            extremes.append(Extremes(name, self.interpolant.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
+        return tuple(extremes)
 
     def list_notes(self) -> tuple[str, ...]:
         """Return the notes for the run: states left out, series that cannot be searched, and a failed other scene."""

@@ -404,7 +404,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
 
 
 def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
-    """Return the envelope over the steps; None if the run had none or the file is older."""
+    """Return the envelope over the steps, TRACE_COLUMNS of each joint with play; None without one or in older files."""
     if not file.has_entry(TRACE):
         return None
     t = file.read_numbers(f"{TRACE}/t")
