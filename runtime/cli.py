@@ -18,7 +18,7 @@ from typer.models import CommandInfo
 from gudgeon.commands import completion
 from gudgeon.commands import options as opt
 from gudgeon.commands.outcome import print_warnings_once, report_errors
-from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
+from gudgeon.contract.methods import KINEMATIC, OFFERED, STEP_CONTROLLED_METHODS
 from gudgeon.language.deprecations import STRESS
 
 MAX_SENTENCE = 1000  # characters, more than in any first sentence
@@ -71,7 +71,9 @@ def simulate_file(
             help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …", autocompletion=completion.complete_methods
         ),
     ] = "auto",
-    rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
+    rtol: Annotated[
+        str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(STEP_CONTROLLED_METHODS)}: 1e-8.")
+    ] = None,
     watch: opt.Watch = None,
     peaks: opt.Peaks = None,
     verify: opt.Verify = False,

@@ -34,7 +34,7 @@ STAGED = tuple(method.name for method in METHODS if method.staged)  # methods wh
 INTEGRATORS = tuple(method.name for method in METHODS if not (method.smooth or method.staged))
 ON_DEMAND = (*SMOOTH, *STAGED)  # methods for which a scene may have to be derived again
 # adaptive methods for any motion
-CHOOSING = tuple(method.name for method in METHODS if not method.fixed and not method.smooth)
+STEP_CONTROLLED_METHODS = tuple(method.name for method in METHODS if not method.fixed and not method.smooth)
 EXPLICIT, STIFF = "dop853", "rodas5p"  # methods between which `auto` switches; with films, the stiff one is from STAGED
 TAYLOR = "taylor"  # method of `auto` instead of EXPLICIT where the motion is smooth and cheap to expand
 FINE = 3e-7  # tolerance below which `auto` uses the second of STAGED
@@ -44,4 +44,4 @@ IN_LANES = (*(method.name for method in METHODS if method.lanes), ADAPTIVE)  # m
 STAGES = "stages"  # name of the reduced formulation with the matrices of STAGED
 NEED_SLOPES = (*(method.name for method in METHODS if method.slopes), ADAPTIVE)  # methods that use the Jacobian
 # methods that integrate, as command line and messages offer them
-OFFERED = ("auto", *CHOOSING, *SMOOTH, *(method.name for method in METHODS if method.fixed))
+OFFERED = ("auto", *STEP_CONTROLLED_METHODS, *SMOOTH, *(method.name for method in METHODS if method.fixed))

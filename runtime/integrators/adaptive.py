@@ -34,7 +34,17 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import find_angles
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, SMOOTH, STAGED, STIFF, TAYLOR
+from gudgeon.contract.methods import (
+    ADAPTIVE,
+    EXPLICIT,
+    FINE,
+    KINEMATIC,
+    SMOOTH,
+    STAGED,
+    STEP_CONTROLLED_METHODS,
+    STIFF,
+    TAYLOR,
+)
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
@@ -63,7 +73,7 @@ def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool)
     if method == "rk4" or (has_fixed_step and method != "kinematic"):
         raise BadValueError(
             f"method {method!r} with a fixed step has no tolerance",
-            hint=f"leave out rtol; or leave out step and use {', '.join(('auto', *CHOOSING))}",
+            hint=f"leave out rtol; or leave out step and use {', '.join(('auto', *STEP_CONTROLLED_METHODS))}",
         )
     try:
         value = read_parameter_value(rtol, RuntimeParameter("rtol", "", 0.0, False, (0, 0, 0)))

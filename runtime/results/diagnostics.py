@@ -244,9 +244,9 @@ def _convert_to_json_values(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
     if isinstance(value, dict):
-        return {key: _convert_to_json_values(item) for key, item in value.items()}
+        return {key: _convert_to_json_values(element) for key, element in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_convert_to_json_values(item) for item in value]
+        return [_convert_to_json_values(element) for element in value]
     return value.item() if hasattr(value, "item") else value  # a NumPy scalar
 
 

@@ -103,10 +103,10 @@ def _build_start_image(scene_or_run: Any) -> str:
     try:
         from gudgeon.results.figures.mechanism_plots import draw_start_picture
 
-        picture = draw_start_picture(scene_or_run)
+        png_bytes = draw_start_picture(scene_or_run)
     except (GudgeonError, ValueError, ArithmeticError):
         return ""
-    data = base64.b64encode(picture).decode("ascii")
+    data = base64.b64encode(png_bytes).decode("ascii")
     return f'<img alt="the mechanism at its start" src="data:image/png;base64,{data}"/>'
 
 

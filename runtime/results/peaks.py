@@ -137,7 +137,12 @@ def build_extreme_rows(
     largest magnitude; other series have two, "NAME max" and "NAME min".
     """
     extremes_by_scene = [
-        {item.name: item for item in extremes if bool(item.against) == is_error} for extremes in scene_extremes
+        {
+            series_extremes.name: series_extremes
+            for series_extremes in extremes
+            if bool(series_extremes.against) == is_error
+        }
+        for extremes in scene_extremes
     ]
     rows = []
     for name in dict.fromkeys(name for by_name in extremes_by_scene for name in by_name):

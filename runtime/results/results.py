@@ -405,16 +405,17 @@ def read(path: str | os.PathLike[str]) -> Result:
 class EvaluatedSamples(Result):
     """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics.
 
-    Samples of several runs may follow each other: `joined_counts` of them, with parameter values p (n_runs, n_p).
+    Samples of several runs may follow each other. `sample_counts_of_runs` then has the number of samples of each run,
+    and p the parameter values (n_runs, n_p).
     """
 
     parts: frozenset[str] = FIELD_NAMES
-    joined_counts: tuple[int, ...] = ()
+    sample_counts_of_runs: tuple[int, ...] = ()
 
     @property
     def sample_counts(self) -> tuple[int, ...]:
-        """Number of samples of each run in `t`; one entry if `joined_counts` is empty."""
-        return self.joined_counts or super().sample_counts
+        """Number of samples of each run in `t`; one entry if `sample_counts_of_runs` is empty."""
+        return self.sample_counts_of_runs or super().sample_counts
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -438,11 +439,13 @@ def make_evaluated_samples(
     work: Array,
     discrete_states: Array,
     state: Array,
-    parts: frozenset[str],
+    field_names: frozenset[str],
 ) -> EvaluatedSamples:
-    """Return a result of samples as C stores them, which can evaluate `parts` of an Evaluation only.
+    """Return a result of samples as C stores them; of an Evaluation it can evaluate only the fields `field_names`.
 
-    It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene without masses.
+    `work` (N, 3); `discrete_states` (N, n_memory): approach speeds, friction modes, internal states; `state` (N,
+    n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
+    without masses.
     """
     n_parameters = len(source.slots)
     return EvaluatedSamples(
@@ -460,7 +463,7 @@ def make_evaluated_samples(
         work=np.full_like(work, np.nan) if source.massless else work,
         impacts=np.zeros(0, IMPACT_DTYPE),
         diagnostics=cast(Diagnostics, None),
-        parts=parts,
+        parts=field_names,
     )
 
 

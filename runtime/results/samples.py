@@ -181,8 +181,8 @@ def make_result_at_events(run: Result) -> Result:
 def make_result_of_samples(run: Result, t: Array, *sample_arrays: Array) -> Result:
     """Return a copy of a result with other samples: the start, then one for each of the times t.
 
-    `sample_arrays` are q, v, works, memory and contact state at these samples, start included. Accelerations,
-    envelope and computed series are dropped.
+    `sample_arrays` are q, v, works, discrete states and contact codes at these samples, start included.
+    Accelerations, envelope, states at events and stored series are dropped; impacts and diagnostics stay.
     """
     q, v, work, discrete_states, state = sample_arrays
     return replace(

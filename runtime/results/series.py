@@ -57,7 +57,7 @@ CLEARANCE = {
     "delta": (9, "m", "penetration: e less the radial clearance where the journal is"),
 }
 # what these mean at a slider's corner, n the outward normal of its wall
-AT_WALL = {
+WALL_SERIES_MEANINGS = {
     "Fx": "force on the corner, x in ground axes",
     "Fy": "force on the corner, y in ground axes",
     "F": "force on the corner, magnitude",
@@ -267,7 +267,9 @@ def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Serie
     for k, joint in enumerate(source.clearances):
         suffix, parts = f": {'corner' if joint.is_corner else 'joint'} {joint.name} with play", frozenset({"clearance"})
         meanings = (
-            AT_WALL if joint.is_corner else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
+            WALL_SERIES_MEANINGS
+            if joint.is_corner
+            else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
         )
         for name, (column, unit, meaning) in CLEARANCE.items():
             series = _make_evaluated_series(unit, meanings.get(name, meaning) + suffix, "clearance", k, column)

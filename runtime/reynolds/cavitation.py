@@ -57,10 +57,10 @@ def solve_pressure(
 ) -> Pressure:
     """Solve the film equation under a cavitation condition, and return pressure, filled fraction and gain of all nodes.
 
-    cavitation: "half_sommerfeld", "reynolds" or "elrod_adams". free_nodes: nodes at which p is unknown, all except the
-    groove. initial_unknowns: unknowns near the solution, from a coarser grid; only their signs are used. Without it,
-    elrod_adams starts from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not
-    converge. None: the sign of the squeeze flow decides.
+    cavitation: "half_sommerfeld" (full film, p may be negative), "reynolds" or "elrod_adams". gain: outflow of a cell
+    less its squeeze flow. free_nodes: nodes at which p is unknown, all except the groove. initial_unknowns: unknowns of
+    a coarser grid; their signs are the initial active set. None: the signs of the squeeze flow; elrod_adams then starts
+    from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not converge.
     """
     squeeze_flow = equation.compute_squeeze_flow(motion.w_n, motion.w_t)
     if cavitation == "half_sommerfeld":
@@ -139,7 +139,7 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, fu
             "elrod_adams: the gap closes faster than oil is convected",
             hint="θ would depend on the history; cavitation='reynolds' does not use θ",
         )
-    pressure = _iterate_full_nodes(matrix, convection, free_nodes, full_nodes) or _iterate_full_nodes(
+    pressure = _solve_by_active_set(matrix, convection, free_nodes, full_nodes) or _solve_by_active_set(
         matrix, convection, free_nodes, np.zeros_like(full_nodes)
     )
     if pressure is None:
@@ -147,22 +147,23 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, fu
     return pressure
 
 
-def _iterate_full_nodes(
+def _solve_by_active_set(
     matrix: sparse.csr_matrix, convection: sparse.csr_matrix, free_nodes: Flags, full_nodes: Flags
 ) -> Pressure | None:
-    """Iterate the active set of full nodes; return the solution, or None without convergence in MAX_STEPS iterations.
+    """Solve for p and θ by iterating the active set of full nodes; return None without convergence in MAX_STEPS.
 
-    matrix, convection: outflows by pressure and by filled fraction. free_nodes: all nodes except the groove.
+    In each iteration p is unknown in full nodes and θ in the others; then nodes with p > 0 or θ > 1 are full. matrix,
+    convection: outflows by pressure and by filled fraction. free_nodes: all nodes except the groove.
     full_nodes: initial guess. Without supply of oil the iteration may cycle; the caller then starts without full nodes.
     """
     groove = np.where(free_nodes, 0.0, 1.0)
     for _ in range(MAX_STEPS):
         is_full = full_nodes.astype(float)
         columns = matrix @ sparse.diags(is_full) + convection @ sparse.diags(1.0 - is_full)
-        right = -(convection @ (is_full + groove))
-        unknown = np.zeros(len(right))
-        unknown[free_nodes] = _factorize(columns[free_nodes][:, free_nodes]).solve(right[free_nodes])
-        p, filled = np.where(full_nodes, unknown, 0.0), np.where(full_nodes | ~free_nodes, 1.0, unknown)
+        right_side = -(convection @ (is_full + groove))
+        unknowns = np.zeros(len(right_side))
+        unknowns[free_nodes] = _factorize(columns[free_nodes][:, free_nodes]).solve(right_side[free_nodes])
+        p, filled = np.where(full_nodes, unknowns, 0.0), np.where(full_nodes | ~free_nodes, 1.0, unknowns)
         next_full = np.where(full_nodes, p > 0.0, filled > 1.0) & free_nodes
         if np.array_equal(next_full, full_nodes):
             return Pressure(p, filled, matrix @ p + convection @ filled)

@@ -50,8 +50,8 @@ class Deviation:
     def share(self) -> Array:
         """Return the deviation (n, m): |F_law − F| over the largest |F| at that ε."""
         largest = np.hypot(self.force[..., 0], self.force[..., 1]).max(axis=1, keepdims=True)
-        off = self.law_force - self.force
-        return np.asarray(np.hypot(off[..., 0], off[..., 1]) / largest)
+        difference = self.law_force - self.force
+        return np.asarray(np.hypot(difference[..., 0], difference[..., 1]) / largest)
 
     def __repr__(self) -> str:
         """Return law, L/D, cavitation condition and the largest deviation."""

@@ -140,23 +140,29 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
     eps: eccentricity ratio. n_around: number of cells around. n_along: cells from the middle to an end, 0 for a sealed
     bearing.
     """
-    spread = FULL_TURN / n_around
-    shift = float(_compute_uniform_angle(np.array([first_angle]), eps)[0])
-    half_nodes = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * n_around, dtype=float), eps)
+    uniform_spacing = FULL_TURN / n_around
+    first_uniform_angle = float(_compute_uniform_angle(np.array([first_angle]), eps)[0])
+    half_nodes = _invert_uniform_angle(
+        first_uniform_angle + 0.5 * uniform_spacing * np.arange(2 * n_around, dtype=float), eps
+    )
     phi, right = half_nodes[::2], half_nodes[1::2]
     left = np.concatenate([[right[-1] - FULL_TURN], right[:-1]])
     node_spacing = np.concatenate([phi[1:], [phi[0] + FULL_TURN]]) - phi
-    weight = spread / _compute_density(phi, eps)
+    angle_weights = uniform_spacing / _compute_density(phi, eps)
     if not n_along:
         half_length = np.array([l_over_d])
-        return Grid(eps, phi, right, left, node_spacing, weight, np.zeros(1), half_length, np.zeros(0), half_length)
+        return Grid(
+            eps, phi, right, left, node_spacing, angle_weights, np.zeros(1), half_length, np.zeros(0), half_length
+        )
     end_slope_ratio = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # axial and circumferential gradients are similar
     zeta, slope = _place_axial_nodes(np.linspace(0.0, 1.0, 2 * n_along + 1), l_over_d, end_slope_ratio)
     height = np.diff(np.concatenate([[0.0], zeta[1::2], [l_over_d]]))
     simpson = np.where(np.arange(n_along) % 2, 4.0, 2.0) / (3.0 * n_along)
     simpson[0] *= 0.5
     nodes = zeta[::2]
-    return Grid(eps, phi, right, left, node_spacing, weight, nodes[:-1], height, np.diff(nodes), simpson * slope[:-1:2])
+    return Grid(
+        eps, phi, right, left, node_spacing, angle_weights, nodes[:-1], height, np.diff(nodes), simpson * slope[:-1:2]
+    )
 
 
 def _compute_density(phi: Array, eps: float) -> Array:

@@ -50,17 +50,18 @@ def _format_title(film: Film) -> str:
 def _draw_pressure_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
     """Draw the pressure over angle and axial position, with the edge of the film, the thinnest film and the groove.
 
-    factor, unit: from Pa to the unit that is shown. The first angle is repeated after the last.
+    factor, unit: factor from Pa to the unit that is shown, and its name. The edge of the film is the boundary of p > 0.
+    The first angle is repeated after the last.
     """
     angle = np.degrees(np.append(film.angle, film.angle[0] + 2.0 * math.pi))
     p = np.concatenate([film.pressure, film.pressure[:1]]) * factor
     from matplotlib.ticker import MaxNLocator, MultipleLocator
 
-    millimetres, name = choose_prefix(film.bearing.length, "m")
-    z = film.z * millimetres
+    length_factor, length_unit = choose_prefix(film.bearing.length, "m")
+    z = film.z * length_factor
     if p.any():
-        drawn = ax.contourf(angle, z, p.T, np.linspace(0.0, p.max(), 21), cmap="viridis")
-        bar = ax.figure.colorbar(drawn, ax=ax, ticks=MaxNLocator(6))
+        contours = ax.contourf(angle, z, p.T, np.linspace(0.0, p.max(), 21), cmap="viridis")
+        bar = ax.figure.colorbar(contours, ax=ax, ticks=MaxNLocator(6))
         bar.set_label(f"p in {unit}")
         ax.contour(angle, z, np.where(p > 0.0, 1.0, 0.0).T, [0.5], colors="white", linewidths=0.9)
     if any(film.eccentricity):
@@ -68,7 +69,7 @@ def _draw_pressure_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
     if film.groove is not None:
         ax.axvline(angle[0], color=COLOURS[5], lw=3.0, label="groove")
         ax.legend(loc="lower left", fontsize=8, frameon=True)
-    ax.set(xlabel="direction from the bearing's centre in °", ylabel=f"z in {name}")
+    ax.set(xlabel="direction from the bearing's centre in °", ylabel=f"z in {length_unit}")
     ax.set(xlim=(angle[0], angle[-1]), ylim=(z[0], z[-1]))
     ax.xaxis.set_major_locator(MultipleLocator(60.0))
     ax.xaxis.set_major_formatter(lambda x, _: f"{(x + 180.0) % 360.0 - 180.0:g}".replace("-", "−"))
@@ -87,29 +88,29 @@ def _draw_middle_plane(ax: Axes, film: Film) -> None:
     """Draw bearing, journal, pressure around the bearing, and force on the journal in the middle plane, not to
     scale.
     """
-    turn = np.linspace(0.0, 2.0 * math.pi, 361)
-    ax.plot(np.cos(turn), np.sin(turn), color="#777777", lw=1.2)
+    angles = np.linspace(0.0, 2.0 * math.pi, 361)
+    ax.plot(np.cos(angles), np.sin(angles), color="#777777", lw=1.2)
     x, y = np.array(film.eccentricity) / film.bearing.clearance * DRAWN_CLEARANCE
     ax.fill(
-        x + (1.0 - DRAWN_CLEARANCE) * np.cos(turn),
-        y + (1.0 - DRAWN_CLEARANCE) * np.sin(turn),
+        x + (1.0 - DRAWN_CLEARANCE) * np.cos(angles),
+        y + (1.0 - DRAWN_CLEARANCE) * np.sin(angles),
         facecolor="#e8e8e8",
         edgecolor="#777777",
     )
     p = film.pressure[:, film.pressure.shape[1] // 2]
-    closed, angle = np.append(p, p[0]), np.append(film.angle, film.angle[0])
+    closed_pressure, closed_angle = np.append(p, p[0]), np.append(film.angle, film.angle[0])
     if p.any():
-        out = 1.0 + DRAWN_PRESSURE * closed / p.max()
-        around = np.concatenate([out * np.exp(1j * angle), np.exp(1j * angle[::-1])])
-        ax.fill(around.real, around.imag, facecolor=COLOURS[1], alpha=0.35, lw=0)
-        ax.plot(out * np.cos(angle), out * np.sin(angle), color=COLOURS[1], lw=1.0)
+        radii = 1.0 + DRAWN_PRESSURE * closed_pressure / p.max()
+        outline = np.concatenate([radii * np.exp(1j * closed_angle), np.exp(1j * closed_angle[::-1])])
+        ax.fill(outline.real, outline.imag, facecolor=COLOURS[1], alpha=0.35, lw=0)
+        ax.plot(radii * np.cos(closed_angle), radii * np.sin(closed_angle), color=COLOURS[1], lw=1.0)
         tip = np.array([x, y]) + 0.65 * film.force / math.hypot(*film.force)
         style = {"arrowstyle": "-|>", "color": COLOURS[0], "lw": 1.6}
         ax.annotate("", (float(tip[0]), float(tip[1])), (x, y), arrowprops=style)
     ax.plot([0.0], [0.0], "+", color="#777777", ms=6)
     ax.plot([x], [y], "o", color=IDEAL, ms=3)
-    side = 1.05 + DRAWN_PRESSURE
-    ax.set(xlim=(-side, side), ylim=(-side, side), aspect="equal", xticks=[], yticks=[])
+    half_width = 1.05 + DRAWN_PRESSURE
+    ax.set(xlim=(-half_width, half_width), ylim=(-half_width, half_width), aspect="equal", xticks=[], yticks=[])
     ax.set_title("pressure in the middle plane")
     ax.spines[:].set_visible(False)
     ax.grid(False)

@@ -230,7 +230,8 @@ def _flatten_to_vector(flags: Flags) -> Flags:
 def _interpolate_unknowns(coarse_solution: Solution) -> Array:
     """Return the unknowns of a coarse solution, interpolated linearly to twice as many cells in both directions.
 
-    Only their signs are used, as the initial active set of the fine grid.
+    Only their signs are used, as the initial active set of the fine grid. At an open end they have the values of the
+    neighbouring nodes, since the unknown there is the outflow.
     """
     p = coarse_solution.p
     if not coarse_solution.grid.sealed:

@@ -10,7 +10,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES, TAYLOR
+from gudgeon.contract.methods import (
+    ADAPTIVE,
+    EXPLICIT,
+    KINEMATIC,
+    SMOOTH,
+    STAGED,
+    STAGES,
+    STEP_CONTROLLED_METHODS,
+    TAYLOR,
+)
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.files.free_space import check_memory
 from gudgeon.integrators import adaptive, kinematic, single_run
@@ -31,7 +40,7 @@ PYTHON_TIME_LOOPS: dict[str, PythonLoop] = {
     KINEMATIC: kinematic.integrate_kinematic,
     **dict.fromkeys(driver.NAMES, driver.integrate_by_reference_solver),
 }
-METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *PYTHON_TIME_LOOPS)
+METHODS = ("rk4", *STEP_CONTROLLED_METHODS, *SMOOTH, ADAPTIVE, *PYTHON_TIME_LOOPS)
 MAX_STEPS = 10**12  # largest number of fixed steps of a run
 DEFAULT_OUTPUT, MAX_OUTPUT = 1000, 10**8  # numbers of intervals: the default, and the largest that is allowed
 OUTPUT = f"a whole number of intervals, 1 to {MAX_OUTPUT:.0e}, or times (s)"
@@ -120,7 +129,7 @@ def compute_output_times(
     MemoryError.
     """
     if type(t_end) is float and type(output) is int and 1 <= output <= MAX_CACHED_INTERVALS:
-        times = _compute_few_times(source, t0, t_end, output)
+        times = _compute_cached_times(source, t0, t_end, output)
         if times is not None:
             return times.copy(), True
     if isinstance(output, np.ndarray) and not output.ndim:
@@ -149,7 +158,7 @@ def compute_output_times(
 
 
 @cache_by_values
-def _compute_few_times(source: KernelSource, t0: float, end: float, intervals: int) -> Array | None:
+def _compute_cached_times(source: KernelSource, t0: float, end: float, intervals: int) -> Array | None:
     """Return the ends (s) of at most MAX_CACHED_INTERVALS equal intervals from t0 to `end`; callers must copy them.
 
     Return None if the run may be too short or end too late, so that `_check_duration` must decide. `source` is used as

@@ -41,7 +41,9 @@ LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}
 BODY_LIMIT = {"body": 1e-9}  # the same for the equations of single bodies, relative to the largest force or moment
 MAX_CALLS_OF_SHORT_RUN = 500  # right-hand sides: in a shorter run, fewer samples are checked to save time
 MIN_CALLS_OF_LONG_RUN = 2000  # right-hand sides: in a longer run, the equations of single bodies are checked too
-WORST_OF_UNDEFINED = 2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
+NON_FINITE_FINDING_VALUE = (
+    2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
+)
 # times rtol times the root of the number of steps: allowed residual relative to the energy throughput
 ENERGY_TOL_FACTOR = 1e3
 MIN_ENERGY_TOL = 1e-6  # smallest allowed residual, relative to the energy throughput
@@ -97,7 +99,7 @@ class SampleAudit:
         if not self.is_on:
             return
         if self.joints:
-            self._add_contact_forces(first, evaluation)
+            self._update_contact_force_maxima(first, evaluation)
         self.drawn.append(
             evaluation
             if len(evaluation.a) == len(self.trajectory.t)
@@ -113,10 +115,11 @@ class SampleAudit:
             row = _find_undefined_row(evaluation, bool(self.source.rigid))
             self.first_undefined = None if row is None else float(self.trajectory.t[first + row])
 
-    def _add_contact_forces(self, first: int, evaluation: Evaluation) -> None:
-        """Update the maxima of contact forces by the next samples, which begin with sample `first` of the run.
+    def _update_contact_force_maxima(self, first: int, evaluation: Evaluation) -> None:
+        """Update the maxima of each joint's contact force (N) by the next samples; `first`: index of the first of them.
 
-        Joints with a film or a rigid contact are left out. A sample is outside contacts if its discrete state is NaN.
+        They are the maxima over all samples, over samples outside contacts (discrete state NaN) with its time, and over
+        those of them that touch (|δ| of rounding size). Joints with a film or a rigid contact are left out.
         """
         memory = self.trajectory.memory[first : first + len(evaluation.a)]
         clearance, t_first = evaluation.clearance, float(self.trajectory.t[first])
@@ -152,7 +155,7 @@ class SampleAudit:
             findings.append(
                 Finding("finite", 0.0, float(trajectory.t[0]), "")
                 if t is None
-                else Finding("finite", WORST_OF_UNDEFINED, t, "")
+                else Finding("finite", NON_FINITE_FINDING_VALUE, t, "")
             )
         left_out = list_checks_left_out(source, problem.method)
         findings += [finding for finding in self._check_random_samples(size) if finding.check not in left_out]
@@ -161,8 +164,9 @@ class SampleAudit:
     def _check_contact_forces(self) -> Iterator[Finding]:
         """Yield findings on the contact forces of joints without a film and without rigid contact.
 
-        At samples outside contacts the force must be zero. The peak force of a joint must not exceed the largest peak
-        of its recorded contacts. The peak is not checked if the run begins or ends within a contact.
+        A finding has a value over its tolerance. At samples outside contacts the force must be zero. The peak force of
+        a joint must not exceed the largest peak of its recorded contacts. The peak is not checked if the run begins or
+        ends within a contact.
         """
         trajectory = self.trajectory
         for k, forces in zip(self.joints, self.contact_forces, strict=True):
@@ -181,8 +185,9 @@ class SampleAudit:
     def _check_random_samples(self, size: float) -> tuple[Finding, ...]:
         """Return findings on power, drive torques and constraint equations at pseudo-random samples.
 
-        C's gudgeon_audit_samples computes them. In long runs, and if audit is "full", the equations of motion of single
-        bodies are checked there too.
+        Each has the largest error over its limit, and its time; errors that are not finite count as 0. `size` (m): size
+        of the mechanism. C's gudgeon_audit_samples computes them. In long runs, and if audit is "full", the equations
+        of motion of single bodies are checked there too.
         """
         compiled, problem, trajectory, samples = self.compiled, self.problem, self.trajectory, self.samples
         memory = trajectory.memory[samples] if compiled.n_memory else np.full((len(samples), 1), np.nan)
@@ -208,7 +213,9 @@ class SampleAudit:
         """Return the evaluation of all pseudo-random samples, joined from the blocks of `add_samples`."""
         if len(self.drawn) == 1:
             return select_evaluated_rows(self.drawn[0], self.samples)
-        return Evaluation(*map(np.concatenate, zip(*(vars(one).values() for one in self.drawn), strict=True)))
+        return Evaluation(
+            *map(np.concatenate, zip(*(vars(evaluation).values() for evaluation in self.drawn), strict=True))
+        )
 
 
 def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Array) -> NDArray[np.bool_]:
@@ -217,10 +224,10 @@ def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Arra
     Whole turns count as differences here, so a run may be reported without a fault. Shapes: parameter values p (n, …),
     `start` (n, 2 n_q), mechanism sizes (n,) in m.
     """
-    off = np.zeros(len(p))
+    distances = np.zeros(len(p))
     for k, given in list_given_coordinates(source):
-        off = np.maximum(off, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
-    return np.asarray(off > START_TOL * size)
+        distances = np.maximum(distances, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
+    return np.asarray(distances > START_TOL * size)
 
 
 def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
@@ -239,9 +246,9 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     states = np.array((problem.q, problem.v, trajectory.q[0], trajectory.v[0]))  # of bodies: x, y, theta
     states[2:] -= states[:2]
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
-    far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
-    off = max(off, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
-    worst = max(off / (START_TOL * (size + far)), slower / max(START_RATES_TOL * fast, 1e-300))
+    far, fast, distance, slower = (max(max_x, max_y, size * angle) for max_x, max_y, angle in largest)
+    distance = max(distance, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
+    worst = max(distance / (START_TOL * (size + far)), slower / max(START_RATES_TOL * fast, 1e-300))
     yield Finding("start", worst, float(trajectory.t[0]), "")
 
 
@@ -250,12 +257,12 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
 
     Angles are multiplied by `size` (m).
     """
-    off = 0.0
+    distance = 0.0
     for k, given in list_given_coordinates(source):
         miss = abs(float(q[k] - p[given]))
         turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
-        off = max(off, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
-    return off
+        distance = max(distance, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
+    return distance
 
 
 @cache_by_values
@@ -275,8 +282,9 @@ def check_energy_balance(
 ) -> Iterator[Finding]:
     """Yield a finding on the energy balance of the whole run, relative to its tolerance.
 
-    Yields nothing for a fixed step, which has no tolerance, for few samples, and where the energy throughput is too
-    small. `largest_energy`: kinetic or potential (J). `balance`: residual and throughput (J).
+    Yields nothing for a fixed step, which has no tolerance, for kinematic runs, for fewer than MIN_SAMPLES samples, and
+    where the energy throughput is too small. `largest_energy`: kinetic or potential (J). `balance`: residual and
+    throughput (J). `size` (m): size of the mechanism.
     """
     residual, throughput = balance[0], balance[1] + largest_energy
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING
+from gudgeon.contract.methods import ADAPTIVE, STEP_CONTROLLED_METHODS
 from gudgeon.errors import GudgeonError
 from gudgeon.language.argument_checks import check_integer
 from gudgeon.model.contours import find_contour, interpolate_depth
@@ -170,7 +170,7 @@ def _yield_exact_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
     For methods that "auto" chooses between, the adaptive method comes first, then `settings` as it is.
     """
-    if settings["method"] in CHOOSING and "step" not in settings:
+    if settings["method"] in STEP_CONTROLLED_METHODS and "step" not in settings:
         yield settings | {"method": ADAPTIVE}
     yield settings
 
@@ -270,7 +270,7 @@ def clear_oil_viscosities(compiled: CompiledModel, p: Array) -> Array:
 
 def _compute_compression_time(run: Result, repetition: Result, k: int, name: str) -> float:
     """Return the sum over the contacts of joint k of the time (s) from the onset to the first maximum of the
-    penetration.
+    penetration (compression phase).
 
     Contacts are cut at the ends of the run; zeros of the rate are interpolated between samples of `repetition`. `name`:
     name of the joint.
@@ -281,12 +281,14 @@ def _compute_compression_time(run: Result, repetition: Result, k: int, name: str
         end = run.t[-1] if math.isnan(end) else min(end, run.t[-1])
         first, last = np.searchsorted(repetition.t, (begin, end), "right")
         not_growing = np.flatnonzero(rate[first:last] <= 0.0)
-        turn = end
+        t_max_penetration = end
         if len(not_growing) and (j := int(first + not_growing[0])) > first and rate[j - 1] > 0.0:
-            turn = repetition.t[j - 1] + (repetition.t[j] - repetition.t[j - 1]) * rate[j - 1] / (rate[j - 1] - rate[j])
+            t_max_penetration = repetition.t[j - 1] + (repetition.t[j] - repetition.t[j - 1]) * rate[j - 1] / (
+                rate[j - 1] - rate[j]
+            )
         elif len(not_growing):
-            turn = repetition.t[first + not_growing[0]]
-        total += max(float(turn - begin), 0.0)
+            t_max_penetration = repetition.t[first + not_growing[0]]
+        total += max(float(t_max_penetration - begin), 0.0)
     return total
 
 

@@ -27,7 +27,9 @@ from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 from gudgeon.model.file_expressions import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
 
-_HIDING = select_function_names(lambda f: f.hides_switching_points)  # functions that may hide a switching point
+_FUNCTIONS_HIDING_SWITCHING_POINTS = select_function_names(
+    lambda f: f.hides_switching_points
+)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`
 N_GRID_INTERVALS, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
 END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end
@@ -173,9 +175,9 @@ def _format_jump_error(jump: Jump, reason: str) -> str:
             f"drive {jump.drive}: it jumps by {jump.size:.4g} at t = {jump.t:.6g} s: no linkage can follow it\n"
             "  give where and mod branches with equal values at their switching points, or end the run before"
         )
-    what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
+    jump_text = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
     return (
-        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its expression does not show: {reason}\n"
+        f"drive {jump.drive}: {jump_text} at t = {jump.t:.6g} s, which its expression does not show: {reason}\n"
         "  write it with abs, min, max or ramp, whose switching points are found, or end the run before"
     )
 
@@ -183,8 +185,8 @@ def _format_jump_error(jump: Jump, reason: str) -> str:
 def _is_possibly_nonsmooth(tree: Expr) -> bool:
     """Return whether an expression may be non-smooth at points that the generator does not detect.
 
-    Such are functions with `hides_corners`, as acos and sqrt, powers whose exponent is not a natural number, and
-    divisions by other than a number.
+    Such are functions with `hides_switching_points`, as acos and sqrt, powers whose exponent is not a natural number,
+    and divisions by other than a number.
     """
     match tree:
         case Unary(operand=operand):
@@ -198,7 +200,7 @@ def _is_possibly_nonsmooth(tree: Expr) -> bool:
                 or _is_possibly_nonsmooth(right)
             )
         case Call(function=function, arguments=arguments):
-            return function in _HIDING or any(map(_is_possibly_nonsmooth, arguments))
+            return function in _FUNCTIONS_HIDING_SWITCHING_POINTS or any(map(_is_possibly_nonsmooth, arguments))
     return False
 
 
@@ -282,8 +284,9 @@ def _find_unbounded_rates(source: KernelSource, p: Array, tree: Expr, drive: str
 def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:
     """Classify a candidate between a and b (s) as a jump of value, rate or infinite rate, and return the Jump.
 
-    Second differences are compared on shorter and shorter intervals. Return None if the drive is smooth or not a number
-    there.
+    The largest second difference on shorter and shorter intervals h is proportional to h^n, with n near 0 for a jump of
+    the value, 1 for a jump of the rate, between them for an infinite rate, 2 for a smooth drive. Return None if the
+    drive is smooth or not a number there.
     """
     logs: list[float] = []
     sizes: list[float] = []  # of the rate's change

@@ -55,8 +55,11 @@ MIN_INTERVAL = 2.0**-12  # shortest interval, relative to the longest
 PERIOD_TOL = 1e-6  # of a period: by which a time may differ from a multiple of it
 
 
-def explain_invalid_tangent(source: KernelSource) -> str:
-    """Return why the Jacobian does not describe all motions of neighbouring states of a scene; "" where it does."""
+def explain_invalid_variational_equation(source: KernelSource) -> str:
+    """Return why the variational equation does not describe the motions of neighbouring states; "" where it does.
+
+    It has no Jacobian, or misses internal states of laws, sticking, impulses of drives or jumps of forces.
+    """
     if source.reason_without_jacobian:
         return source.reason_without_jacobian
     if source.states:
@@ -132,10 +135,11 @@ def compute_lyapunov_exponent(
     )
 
 
-def explain_slow_tangent(source: KernelSource) -> str:
-    """Return why by="auto" uses a second run although the tangent would be valid; "" where the tangent is fast.
+def explain_slow_variational_equation(source: KernelSource) -> str:
+    """Return why by="auto" uses a second run although the variational equation is valid; "" where that is fast.
 
-    The reason is a stiff film, on which the tangent needs as many panels as there are steps.
+    The reason is a film, which is stiff: the collocation of the variational equation needs as many panels as the run
+    has steps.
     """
     films = [joint.name for joint in source.clearances if joint.film]
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
@@ -205,10 +209,10 @@ def _explain_second_run(source: KernelSource, method: str) -> str | None:
     """
     if method not in METHODS:
         raise_bad_value("by", method, f"one of {', '.join(METHODS)}")
-    reason = explain_invalid_tangent(source)
+    reason = explain_invalid_variational_equation(source)
     if method == "tangent" and reason:
         raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" uses a second run')
-    reason = reason or (explain_slow_tangent(source) if method == "auto" else "")
+    reason = reason or (explain_slow_variational_equation(source) if method == "auto" else "")
     return None if method == "tangent" or (method == "auto" and not reason) else reason
 
 
@@ -238,7 +242,8 @@ def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float 
     """
     return (
         min(rtol, MAX_RTOL_OF_SECOND_RUN)
-        if rtol is not None and (explain_invalid_tangent(source) or explain_slow_tangent(source))
+        if rtol is not None
+        and (explain_invalid_variational_equation(source) or explain_slow_variational_equation(source))
         else rtol
     )
 

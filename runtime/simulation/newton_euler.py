@@ -216,8 +216,8 @@ def _compute_moments(table: ForceTable, p: Array, q: Array, wrenches: Array) -> 
         .swapaxes(0, 1)
     )
     arms = points[:, np.newaxis] - q[:, :, np.newaxis, :2]
-    acts = table.signs[:, : len(table.points)] != 0.0
-    longest = float((np.hypot(arms[..., 0], arms[..., 1]) * acts).max(initial=0.0))
+    acts_on_body = table.signs[:, : len(table.points)] != 0.0
+    longest = float((np.hypot(arms[..., 0], arms[..., 1]) * acts_on_body).max(initial=0.0))
     arm = arms[:, table.with_known_moments]
     F, M = wrenches[:, np.newaxis, :, :2], wrenches[:, np.newaxis, :, 2]
     return np.asarray(table.signs_of_moments * (M + arm[..., 0] * F[..., 1] - arm[..., 1] * F[..., 0])), longest

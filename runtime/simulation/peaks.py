@@ -93,34 +93,35 @@ class PeakSearch:
     def list_extremes(self) -> tuple[Extremes, ...]:
         """Return the extremes of each series, then those of errors against the other scene if it ran to the end.
 
+        Peaks are stored by (series, whether it is the error, sign): for the sign −1 the largest of the negated values.
         Values and times are NaN for series without a finite value.
         """
         unknown = (math.nan, math.nan)
-        message = []
-        for name, error in self.kinds:
-            if error and self.compared_scene and self.compared_scene.failure_reason:
+        extremes = []
+        for name, is_error in self.kinds:
+            if is_error and self.compared_scene and self.compared_scene.failure_reason:
                 continue
-            high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
-            against = self.compared_scene.scene if error and self.compared_scene else ""
-            message.append(Extremes(name, self.interpolant.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
-        return tuple(message)
+            high, low = (self.best.get((name, is_error, sign), unknown) for sign in (1, -1))
+            against = self.compared_scene.scene if is_error and self.compared_scene else ""
+            extremes.append(Extremes(name, self.interpolant.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
+        return tuple(extremes)
 
     def list_notes(self) -> tuple[str, ...]:
-        """Return the notes for the run: states left out, and series that could not be searched."""
-        message = []
+        """Return the notes for the run: states left out, series that cannot be searched, and a failed other scene."""
+        notes = []
         if self.interpolant.n_without_accelerations:
-            message.append(
+            notes.append(
                 f"peaks: {self.interpolant.n_without_accelerations} states of steps have no "
                 "accelerations and are left out"
             )
         for name in sorted(self.unresolved):
-            message.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
+            notes.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
         if self.compared_scene and self.compared_scene.failure_reason:
-            message.append(
+            notes.append(
                 f"errors over all steps are not known: scene {self.compared_scene.scene}: "
                 f"{self.compared_scene.failure_reason}"
             )
-        return tuple(message)
+        return tuple(notes)
 
     def _update_peaks(self, name: str, is_error: bool, interpolants: list[RunInterpolant]) -> None:
         """Update the peaks of one series, or if `is_error` of its error, from the current block of states.
@@ -164,7 +165,7 @@ class PeakSearch:
         and end (s) of the part that is searched; None: the whole interval.
         """
         low, high = time_range or self.interpolant.steps.t[k : k + 2].tolist()
-        for turn in range(MAX_REFINEMENTS):
+        for iteration in range(MAX_REFINEMENTS):
             times = low + NODES * (high - low)
             values = key[2] * _subtract_compared_series(
                 [path.evaluate_series_between_states(k, times, key[0]) for path in interpolants]
@@ -173,12 +174,12 @@ class PeakSearch:
             best = int(finite_values.argmax())
             self._store_peak(key, float(finite_values[best]), float(times[best]))
             if np.isfinite(values).all():
-                parts = COEFFICIENTS @ values
-                if np.abs(parts[-2:]).max() <= COEFFICIENT_TOL * scale:
-                    top, fraction = _find_polynomial_maximum(parts)
-                    self._store_peak(key, top, low + fraction * (high - low))
+                coefficients = COEFFICIENTS @ values
+                if np.abs(coefficients[-2:]).max() <= COEFFICIENT_TOL * scale:
+                    maximum, fraction = _find_polynomial_maximum(coefficients)
+                    self._store_peak(key, maximum, low + fraction * (high - low))
                     break
-            if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= MAX_REFINEMENTS_AT_END):
+            if not times[1] > times[0] or (best in (0, len(NODES) - 1) and iteration >= MAX_REFINEMENTS_AT_END):
                 break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
 

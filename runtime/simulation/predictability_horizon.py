@@ -154,10 +154,10 @@ def _compare_runs(simulation: Simulation, runs: list[Result], max_difference: fl
     count = min(len(run.t) for run in runs)
     paths = [_compute_compared_coordinates(simulation, run)[:count] for run in runs]
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
-    different = np.flatnonzero(~(np.maximum(*gaps) <= max_difference))
-    last = int(different[0]) - 1 if len(different) else count - 1
+    differing_samples = np.flatnonzero(~(np.maximum(*gaps) <= max_difference))
+    last = int(differing_samples[0]) - 1 if len(differing_samples) else count - 1
     agreed = float(runs[0].t[last]) if last >= 0 else build_start_state(runs[0]).t
-    return agreed, bool(len(different)) or any(len(run.t) > count for run in runs)
+    return agreed, bool(len(differing_samples)) or any(len(run.t) > count for run in runs)
 
 
 def _compute_compared_coordinates(simulation: Simulation, run: Result) -> Array:

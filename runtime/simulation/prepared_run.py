@@ -212,7 +212,7 @@ class PreparedRun:
         x = as_c_array(values, "values")
         if x.shape == self._shape:
             with self._lock:
-                return self._run_one(x)
+                return self._run_single(x)
         if x.ndim != 2 or x.shape[1:] != self._shape:
             n = self._shape[0]
             raise ArrayError(
@@ -250,7 +250,7 @@ class PreparedRun:
         if self._has_variable_step:
             self._run.arrays["step"][k] = self._setup.evaluate_step(k, float(self._t[-1] - self._t[0]))
 
-    def _run_one(self, x: Array) -> Array:
+    def _run_single(self, x: Array) -> Array:
         """Return the series (n_series, n_samples) of the run with parameter values x (n_parameters,).
 
         The extremes of the requested peaks are stored in `extremes`. `simulate` runs scenes that need it, values that

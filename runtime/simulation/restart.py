@@ -201,8 +201,8 @@ def _list_changed_laws_and_tables(source: KernelSource, start: State) -> list[st
 class FileParameters(NamedTuple):
     """Hold the parameters of a run that begins at the file's start; callers must not change the arrays."""
 
-    given: Array  # (n_slots,) values of the parameters that are given
-    is_given: Array  # (n_slots,) mask
+    given: Array  # (n_parameters,) values of the parameters that are given
+    is_given: Array  # (n_parameters,) mask
     p: Array  # (2, n_p) values of the run, and those without Baumgarte gains
     notes: tuple[str, ...]
 
@@ -258,13 +258,13 @@ def merge_parameters(
         f"{slots[k].address} {_format_value(p[k], slots[k])} (before {_format_value(p_before[k], slots[k])})"
         for k in changed[:MAX_REPORTED]
     ]
-    more = f" and {len(changed) - MAX_REPORTED} more" if len(changed) > MAX_REPORTED else ""
+    omission_text = f" and {len(changed) - MAX_REPORTED} more" if len(changed) > MAX_REPORTED else ""
     return (
         values,
         mask,
         (
             *selected,
-            f"resumed at t = {start.t:.9g} s with other parameter values: {', '.join(changes)}{more}",
+            f"resumed at t = {start.t:.9g} s with other parameter values: {', '.join(changes)}{omission_text}",
         ),
     )
 
@@ -340,8 +340,8 @@ def _format_violated_equations(
         for row, x, limit in zip(rows, residuals, allowed, strict=True)
         if not abs(x) <= limit
     ]
-    more = f" and {len(violated) - MAX_REPORTED} more" if len(violated) > MAX_REPORTED else ""
-    return f"{', '.join(violated[:MAX_REPORTED])}{more}" if violated else ""
+    omission_text = f" and {len(violated) - MAX_REPORTED} more" if len(violated) > MAX_REPORTED else ""
+    return f"{', '.join(violated[:MAX_REPORTED])}{omission_text}" if violated else ""
 
 
 def _format_value(value: float, parameter: RuntimeParameter) -> str:

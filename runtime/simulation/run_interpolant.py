@@ -258,7 +258,9 @@ class RunInterpolant:
             h, max_count = np.diff(self.steps.t), 2 if self.has_films else 1  # neighbours on each side
             before, after = (self._count_neighbours(h, k, direction, max_count) for direction in (-1, 1))
             ranges = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
-            fit = min((self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda one: one[0])
+            fit = min(
+                (self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda fit_of_range: fit_of_range[0]
+            )
             self.rates_cache = k, (*fit[1:], legint(fit[3]))
         interpolant: tuple[float, float, Any, Any] = self.rates_cache[1]
         return interpolant
@@ -311,8 +313,8 @@ class RunInterpolant:
             self.works_cache = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
         work = legval(2.0 * s[:, 0] - 1.0, self.works_cache[1]).T
         correction = x.work[k + 1] - x.work[k] - legval(1.0, self.works_cache[1])
-        out: Array = x.work[k] + work + s * correction
-        return out
+        corrected_work: Array = x.work[k] + work + s * correction
+        return corrected_work
 
 
 @cache

@@ -62,9 +62,10 @@ class ReusableSampleAudit:
         return bool(((errors > self._limits) & (errors < np.inf)).any())
 
     def _list_arguments(self, k: int, samples: NDArray[np.intp]) -> list[tuple[Arguments, Any]]:
-        """Return the arguments of C for each of these samples of row k: pointers to the state, and to the errors.
+        """Return the arguments of gudgeon_audit_samples for each of these samples of row k: pairs of pointers.
 
-        The first sample of a resumed run is left out.
+        The first of a pair are pointers to t, q, v, discrete states and p, the second a pointer to the len(LIMITS)
+        errors that C writes. The first sample of a resumed run is left out if there are others.
         """
         compiled, (y, latched, p) = self.run.compiled, self._rows[k]
         if self.is_resumed and len(samples) > 1:

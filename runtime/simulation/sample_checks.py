@@ -156,8 +156,8 @@ def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float
     with np.errstate(invalid="ignore"):
         is_finite = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
     k = int(is_finite.argmin()) if not is_finite.all() else 0
-    what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
-    return (f"the energy residual is not known: {what} is not finite at t = {t[k]:.9g} s",)
+    subject = "the energy" if not np.isfinite(energy[k]).all() else "the work"
+    return (f"the energy residual is not known: {subject} is not finite at t = {t[k]:.9g} s",)
 
 
 def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array, slips: Array) -> tuple[str, ...]:

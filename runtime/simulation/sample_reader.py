@@ -21,7 +21,7 @@ from gudgeon.simulation.stored_series import build_samples
 
 MAX_SAMPLES = 2048  # with more, C is called for parts of the samples, between which Ctrl-C is handled
 # values of a result that depend on its parameters and are computed once
-_OF_PARAMETERS = ("parameters", "constants")
+_PARAMETER_PROPERTIES = ("parameters", "constants")
 _MOTION = ("q", "v", "a", "work")  # arrays of a result that are columns of stored or evaluated samples
 
 
@@ -119,7 +119,7 @@ class _ReusableSamples:
         """
         cached: dict[str, Any] = vars(self.result)
         self.result.stored.clear()
-        for name in _OF_PARAMETERS:
+        for name in _PARAMETER_PROPERTIES:
             cached.pop(name, None)
         if not self._parts:
             return True

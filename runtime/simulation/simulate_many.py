@@ -390,12 +390,12 @@ class _Results:
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], convert_counts_of_runs(x["counts"], x["residuals"])
         size = compute_mechanism_sizes(source, x["p"])
-        in_question = may_exceed_validity_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
+        may_be_outside = may_exceed_validity_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
         notes_by_run = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
-        for i in np.flatnonzero(in_question).tolist():
+        for i in np.flatnonzero(may_be_outside).tolist():
             q0, counts, t0 = x["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
-            message = yield_range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
-            notes_by_run[i] = (*notes_by_run.get(i, ()), *message)
+            range_notes = yield_range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
+            notes_by_run[i] = (*notes_by_run.get(i, ()), *range_notes)
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_missing_mass_note(source))
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():

@@ -55,10 +55,10 @@ def check_requested_peaks(
     if peaks is None:
         return check_series(source, source.peaks) if source.peaks else ()
     wear_requests = (
-        tuple(item for item in peaks if isinstance(item, SlidingRequest)) if isinstance(peaks, tuple) else ()
+        tuple(request for request in peaks if isinstance(request, SlidingRequest)) if isinstance(peaks, tuple) else ()
     )
     series_names = check_names(
-        [item for item in peaks if item not in wear_requests] if wear_requests else peaks, "peaks", LIST
+        [request for request in peaks if request not in wear_requests] if wear_requests else peaks, "peaks", LIST
     )
     if "t" in series_names:
         raise BadValueError("peaks: t has no peaks", hint="leave it out: a peak comes with its time")

@@ -137,45 +137,51 @@ class StoredSeries:
             first += count
 
 
-def build_samples(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
+def build_samples(runs: Runs, i: int, field_names: frozenset[str]) -> EvaluatedSamples | None:
     """Return the stored samples of run i as a result without diagnostics; None if it has no samples.
 
-    `parts`: names of the evaluated quantities that its series need. Accelerations are those of the method, if stored.
+    `field_names`: fields of an Evaluation that its series need. Accelerations are those of the method, if stored.
     """
     if not runs.arrays["done"][i]:
         return None
     n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
     t, y, discrete_states, state = runs.get_samples(i)
     result = make_evaluated_samples(
-        source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], discrete_states, state, parts
+        source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], discrete_states, state, field_names
     )
     result.accelerations = runs.get_accelerations(i)
     return result
 
 
-def _concatenate_samples(runs: Runs, indices: Sequence[int], parts: frozenset[str]) -> EvaluatedSamples:
+def _concatenate_samples(runs: Runs, indices: Sequence[int], field_names: frozenset[str]) -> EvaluatedSamples:
     """Return all samples of the runs `indices` concatenated in one result.
 
-    If `parts` is not empty, these quantities are evaluated with each run's parameter values. Accelerations are those of
-    the method, if it stores them.
+    `field_names`: fields of an Evaluation that are evaluated, with each run's parameter values; none: nothing is
+    evaluated. Accelerations are those of the method, if it stores them. Where accelerations of drives may jump, a run's
+    last sample is evaluated before its jump.
     """
     compiled, n, samples_of_runs = runs.compiled, runs.compiled.n, [runs.get_samples(i) for i in indices]
-    counts = [len(samples[0]) for samples in samples_of_runs]
+    run_lengths = [len(samples[0]) for samples in samples_of_runs]
     t, y, discrete_states, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
     q, v = y[:, :n], y[:, n : 2 * n]
-    numbers = runs.arrays["p"][indices]
+    parameter_values = runs.arrays["p"][indices]
     result = make_evaluated_samples(
-        compiled.source, compiled, numbers, t, q, v, y[:, 2 * n :], discrete_states, state, parts
+        compiled.source, compiled, parameter_values, t, q, v, y[:, 2 * n :], discrete_states, state, field_names
     )
-    result.joined_counts = tuple(counts)
+    result.sample_counts_of_runs = tuple(run_lengths)
     accelerations = [a for i in indices if (a := runs.get_accelerations(i)) is not None]
     if accelerations:
-        result.accelerations, parts = np.concatenate(accelerations), parts - {"a"}
-    if parts:
+        result.accelerations, field_names = np.concatenate(accelerations), field_names - {"a"}
+    if field_names:
         if compiled.may_drive_acceleration_jump:
-            last = zip(samples_of_runs, numbers, strict=True)
+            samples_and_parameters = zip(samples_of_runs, parameter_values, strict=True)
             t = np.concatenate(
-                [find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last]
+                [
+                    find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p)
+                    for (t, y, *_), p in samples_and_parameters
+                ]
             )
-        result.evaluation = evaluate_runs(compiled, counts, t, q, v, discrete_states, numbers, parts)
+        result.evaluation = evaluate_runs(
+            compiled, run_lengths, t, q, v, discrete_states, parameter_values, field_names
+        )
     return result

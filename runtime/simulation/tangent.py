@@ -278,16 +278,16 @@ class Tangent:
         for panel in self._compute_panels(sorted({self.state.t, t, *times})):
             P, change = panel.compose_propagator()
             z, error = P @ z, error + change
-            for when, joint, onset, deltadot in changes:
-                if when == panel.b and panel.s + panel.width == 1.0:
-                    z = self._apply_saltation_matrix(z, when, joint, onset, deltadot, states[when])
+            for t_change, joint, is_onset, deltadot in changes:
+                if t_change == panel.b and panel.s + panel.width == 1.0:
+                    z = self._apply_saltation_matrix(z, t_change, joint, is_onset, deltadot, states[t_change])
         z = self._project_tangent(run, z)
         distance = self._compute_tangent_norm(run.final, z)
-        grown = math.log(distance / self.distance)
-        if abs(grown) > MAX_LOG_GROWTH and not is_shortest_interval:
+        log_growth = math.log(distance / self.distance)
+        if abs(log_growth) > MAX_LOG_GROWTH and not is_shortest_interval:
             return None
         self.state, self.z, self.distance, self.growth_error = run.final, z / distance, 1.0, self.growth_error + error
-        return run, grown
+        return run, log_growth
 
     def _simulate_to_times(self, times: list[float] | Array) -> Result:
         """Return the run from the current state with samples at these times (s).
@@ -463,7 +463,9 @@ class Tangent:
     def _project_tangent(self, run: Result, z: Array) -> Array:
         """Return z projected onto the tangent space of the constraints at the end of the run.
 
-        If `transverse`, its component along the motion is removed first.
+        It is the central difference of the nonlinear projection of the states y ± h z, with h z of the size
+        INITIAL_DISTANCE. If `transverse`, the component along the motion is removed first. Entries of approach speeds
+        are unchanged.
         """
         t, full, size = float(run.t[-1]), flatten_state(run.final), 2 * self.flow.m
         y, q_dep = self.flow.reduce_state(t, full)

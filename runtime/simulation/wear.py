@@ -124,8 +124,8 @@ def _build_sliding_request(
     begin = first if since is None else check_number(since, "since")
     end = last if until is None else check_number(until, "until")
     if not first <= begin < end <= last:
-        message_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
-        raise BadValueError(message_of, hint="expected since before until, both within the run")
+        message = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
+        raise BadValueError(message, hint="expected since before until, both within the run")
     return SlidingRequest(joint, check_integer(points, "points", 8, MAX_POINTS), begin, end, contact_model == "overlap")
 
 
@@ -140,15 +140,13 @@ def check_joint_can_wear(source: KernelSource, joint: Any) -> None:
         hint = f"its joints with play: {', '.join(clearance.name for clearance in source.clearances) or 'none'}"
         raise UnknownNameError(f"no wear of {shorten_value(joint)}: expected a joint with play", hint=hint)
     if matching[0].is_corner:
-        message_of = f"no wear of {joint}: it is a corner of a slider, and wear is computed for bearings only"
-        raise BadValueError(message_of, hint="expected a revolute joint with play")
+        message = f"no wear of {joint}: it is a corner of a slider, and wear is computed for bearings only"
+        raise BadValueError(message, hint="expected a revolute joint with play")
     if not matching[0].dry:
         raise BadValueError(f"{joint} has a film only: nothing wears", hint="expected a contact with a normal law")
     if not has_known_contact_force(source, matching[0]):
-        message_of = f"no wear of {joint}: the force of its film is not known with user-defined laws"
-        raise BadValueError(
-            message_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film"
-        )
+        message = f"no wear of {joint}: the force of its film is not known with user-defined laws"
+        raise BadValueError(message, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film")
 
 
 def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> float:
@@ -158,9 +156,11 @@ def parse_wear_rate(k: Any, hardness: Any, k_name: str, hardness_name: str) -> f
     and `hardness_name` of the arguments are for messages. Raises InputError for values that are not positive.
     """
 
-    def parse_positive(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
+    def parse_positive(value: Any, argument_name: str, exponents: tuple[int, int, int]) -> float:
         """Return a positive number from a text with a unit or a number."""
-        return check_positive(parse_quantity(value, what, exponents) if isinstance(value, str) else value, what)
+        return check_positive(
+            parse_quantity(value, argument_name, exponents) if isinstance(value, str) else value, argument_name
+        )
 
     if hardness is None:
         return parse_positive(k, k_name, SPECIFIC_RATE)

@@ -233,9 +233,9 @@ def average_depths_over_arcs(depth: Array, n_angles: int) -> Array:
     points = len(depth)
     cumulative = np.concatenate([[0.0], np.cumsum(depth)])
     edges = (np.arange(n_angles + 1) - 0.5) * (points / n_angles)
-    whole_turns, rest = np.divmod(edges, points)
-    upto = whole_turns * cumulative[-1] + np.interp(rest, np.arange(points + 1), cumulative)
-    return np.asarray(np.diff(upto) * (n_angles / points))
+    whole_turns, remainders = np.divmod(edges, points)
+    depth_integrals = whole_turns * cumulative[-1] + np.interp(remainders, np.arange(points + 1), cumulative)
+    return np.asarray(np.diff(depth_integrals) * (n_angles / points))
 
 
 def smooth_depths(depth: Array, n_passes: int) -> Array:

@@ -79,12 +79,12 @@ def make_axis(
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
     source, p = simulation.source, prepare_values(simulation.compiled, parameters)[0]
     indices = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
-    first = float(p[indices[0]])
-    if len(indices) > 1 and first == 0.0:
+    first_value = float(p[indices[0]])
+    if len(indices) > 1 and first_value == 0.0:
         raise BadValueError(
             f"axis {name}: {source.slots[indices[0]].address} is 0: expected another value, for the ratios to it"
         )
-    ratios = tuple((source.slots[k].address, float(p[k]) / first if len(indices) > 1 else 1.0) for k in indices)
+    ratios = tuple((source.slots[k].address, float(p[k]) / first_value if len(indices) > 1 else 1.0) for k in indices)
     return Axis(name, tuple(sorted(values)), source.slots[indices[0]].unit, ratios)
 
 
@@ -112,12 +112,12 @@ def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | 
     if ".." in ends:
         if len(values) != 2 or not 0 < values[0] < values[1]:
             raise BadValueError(f"axis {axis_text!r}: expected 0 < low < high")
-        count_of_values = DEFAULT_COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
-        if not 2 <= count_of_values <= MAX_COUNT:
+        n_values = DEFAULT_COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
+        if not 2 <= n_values <= MAX_COUNT:
             raise BadValueError(
                 f"axis {axis_text!r}: expected a whole number of values after ':', from 2 to {MAX_COUNT}"
             )
-        values = np.geomspace(values[0], values[1], count_of_values).tolist()
+        values = np.geomspace(values[0], values[1], n_values).tolist()
     elif colon:
         raise BadValueError(f"axis {axis_text!r}: ':' and a number of values are allowed after a range low..high only")
     return make_axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)

@@ -427,7 +427,9 @@ def _judge_steps(
         {x for step in steps for x in (step, step.refine(REFERENCE_STEP_DIVISOR))}, key=lambda x: -x.value
     )
     runs = [
-        (window, step) for window, expected in ((short_window, all_steps), (long_window, steps)) for step in expected
+        (window, step)
+        for window, window_steps in ((short_window, all_steps), (long_window, steps))
+        for step in window_steps
     ]
     total_cost, completed = sum(window.t_end / step.value for window, step in runs), 0.0
     attempts: dict[tuple[SceneWindow, Setting], Attempt] = {}
@@ -439,9 +441,11 @@ def _judge_steps(
     for step in steps:
         reference = step.refine(REFERENCE_STEP_DIVISOR)
         pairs = [(attempts[short_window, step], attempts[short_window, reference])]
-        fine = attempts.get((long_window, reference))
-        if fine is not None and fine.run is not None and not len(fine.run.impacts):
-            pairs.append((attempts[long_window, step], fine))  # without contacts, errors are meaningful for longer
+        fine_long_run = attempts.get((long_window, reference))
+        if fine_long_run is not None and fine_long_run.run is not None and not len(fine_long_run.run.impacts):
+            pairs.append(
+                (attempts[long_window, step], fine_long_run)
+            )  # without contacts, errors are meaningful for longer
         cells.append(judge_runs(job.parameters, attempts[long_window, step], pairs, limits))
     return cells
 

@@ -14,7 +14,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.contract.methods import CHOOSING, INTEGRATORS, STAGED
+from gudgeon.contract.methods import INTEGRATORS, STAGED, STEP_CONTROLLED_METHODS
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
@@ -24,13 +24,13 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Setting, find_comparison_window, find_default_step
 
-ADAPTIVE = (*CHOOSING, "auto")
+ADAPTIVE = (*STEP_CONTROLLED_METHODS, "auto")
 CALLS_PER_BATCH, N_BATCHES = 20_000, 9  # of the right-hand side, to measure its time
 
 
 def has_adaptive_method(simulation: Simulation) -> bool:
     """Return whether the scene supports any method with step-size control (adaptive steps)."""
-    return bool(set(CHOOSING) & set(simulation.source.methods))
+    return bool(set(STEP_CONTROLLED_METHODS) & set(simulation.source.methods))
 
 
 def select_methods(simulation: Simulation, requested: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
@@ -40,7 +40,7 @@ def select_methods(simulation: Simulation, requested: Sequence[str] | None, quic
     cross-checks, which are slow. A requested method with step-size control that the scene does not support is left out
     without a sentence. Raises BadValueError for a name or pattern that no method has, or if no method is left.
     """
-    own_methods = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
+    own_methods = (*(name for name in INTEGRATORS if name not in STEP_CONTROLLED_METHODS), *ADAPTIVE)
     all_methods = (*own_methods, *python_driver.NAMES)
     default_methods = own_methods if quick else all_methods
     requested = (
@@ -58,7 +58,7 @@ def select_methods(simulation: Simulation, requested: Sequence[str] | None, quic
         package = method.partition(":")[0]
         source, is_requested = simulation.source, method in STAGED and requested is not default_methods
         supported = (*source.methods, *(STAGED if is_requested and not source.reason_without_jacobian else ()))
-        fits = method in supported if method in CHOOSING else has_adaptive_method(simulation)
+        fits = method in supported if method in STEP_CONTROLLED_METHODS else has_adaptive_method(simulation)
         if method in ADAPTIVE and not fits:
             continue
         if method in python_driver.NAMES and reason:
@@ -68,8 +68,8 @@ def select_methods(simulation: Simulation, requested: Sequence[str] | None, quic
         else:
             fitting.append(method)
     if not fitting:
-        message = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} allows a fixed step only: rk4"]
-        raise BadValueError("none of the methods fits", hint="; ".join(message))
+        reasons = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} allows a fixed step only: rk4"]
+        raise BadValueError("none of the methods fits", hint="; ".join(reasons))
     return fitting, list(dict.fromkeys(left_out))
 
 

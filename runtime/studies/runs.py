@@ -231,7 +231,7 @@ def find_comparison_window(
 ) -> SceneWindow:
     """Return a time window over the first N_ONSETS contacts, or over `max_window` (s) with fewer contacts.
 
-    It ends half-way between the fourth onset and the next, rounded to two digits. Pilot runs with `setting`, each twice
+    It ends half-way between onset N_ONSETS and the next, rounded to two digits. Pilot runs with `setting`, each twice
     as long as the previous one, find these onsets; a failed pilot run ends the search. After many dry contacts any two
     runs differ, so errors are not meaningful there. `max_window` is limited to the end of the scene's run. parameters:
     None means the values of the file.

@@ -98,7 +98,7 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
         )
         yield "code", DERIVATION_CODE
     if not any(body.missing_keys for body in scene.mechanism.bodies.values()):
-        yield from _yield_motion_cells(model, names)
+        yield from _yield_equation_of_motion_cells(model, names)
     yield from _yield_run_cells(model, mechanism)
 
 
@@ -206,16 +206,19 @@ def _write_column_by_lines(entries: list[str]) -> str:
     return f"sp.Matrix([\n    {inside},\n])"
 
 
-def _yield_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
-    """Yield the cells of the mass matrix M and the applied forces g; the system is solved numerically later."""
-    text = "The forces of joints with play and of set-valued friction are added to g by the simulator."
-    more = text if model.clearances or model.frictions else ""
+def _yield_equation_of_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """Yield a text cell with M q̈ + Φ_qᵀ λ = g, and a code cell that assigns M and g as expressions of the model.
+
+    They are not derived in the notebook. The cell of `_write_run_comparison` solves the system numerically.
+    """
+    note = "The forces of joints with play and of set-valued friction are added to g by the simulator."
+    added_forces_text = note if model.clearances or model.frictions else ""
     yield (
         "markdown",
         (
             "## The equation of motion\n\n$$ M \\ddot q + \\Phi_q^{\\mathsf T} \\lambda = g, \\qquad "
             "\\Phi_q \\ddot q = \\gamma $$\n\nM is diagonal, as the coordinates are those of the centres of mass; g "
-            f"contains gravity and the force elements. {more}".rstrip()
+            f"contains gravity and the force elements. {added_forces_text}".rstrip()
         ),
     )
     masses = [format_expression(mass, model, names) for mass in model.masses]

@@ -277,28 +277,28 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
         clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
     }
     used = {name.text for name in notation.names.values()}
-    base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
+    base = next(letter for letter in ("s", "u", "w", "z") if not {letter, f"{letter}_1"} & used)
     steps = {
         clamp: sp.Symbol(base if len(progress_of) == 1 else f"{base}_{k}") for k, clamp in enumerate(progress_of, 1)
     }
-    inner = value.xreplace(steps)
-    if not steps or inner.has(sp.Max, sp.Min, Select):
+    driven_value = value.xreplace(steps)
+    if not steps or driven_value.has(sp.Max, sp.Min, Select):
         return []
     rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_of.items()}
     for _ in range(driven.index(symbol)):
-        inner = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inner)))
+        driven_value = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(driven_value)))
     names = {s: Formula(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
-    shown = [
+    step_equations = [
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
         for clamp, progress in progress_of.items()
     ]
     outside_text = " and is constant before and after" if driven.index(symbol) else ", with 0 before and 1 after"
     terms = step_notation.format_terms(
-        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inner)))
+        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(driven_value)))
     )
     return [
-        *shown,
+        *step_equations,
         make_paragraph(f"which increases from 0 to 1{outside_text}:"),
         Equation(step_notation.format_expression(symbol), terms),
     ]
@@ -315,15 +315,15 @@ def _find_clamped_progress(expression: sp.Max) -> sp.Expr | None:
 
 def _differentiate_in_time(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
     """Return the time derivative of a product whose symbols have these `rates`, constant factors first."""
-    factor, rest = term.as_independent(*rates, as_Add=False)
-    terms = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
-    return sp.Add(sp.diff(factor, t) * rest, *terms)
+    factor, dependent_part = term.as_independent(*rates, as_Add=False)
+    terms = (factor * rate * sp.expand(sp.diff(dependent_part, s)) for s, rate in rates.items())
+    return sp.Add(sp.diff(factor, t) * dependent_part, *terms)
 
 
 def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
     """Return a product as a factor times the expanded polynomial in the progress symbols `steps`."""
-    factor, rest = term.as_independent(*steps, as_Add=False)
-    return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
+    factor, dependent_part = term.as_independent(*steps, as_Add=False)
+    return sp.Mul(factor, sp.expand(dependent_part), evaluate=False) if dependent_part != 1 else term
 
 
 def make_indexed_symbol(quantity: str, index: int) -> Formula:
@@ -369,21 +369,21 @@ def _make_acceleration_question(subject: Subject) -> Question:
         ),
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    signs = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
-    shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
+    symbol_names = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
+    shown_rows = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale = float(np.abs(gamma).max())
     errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
             _make_linear_equation(
-                subject, subject.format_number(gamma[r], scale=scale, uncertainty=errors[r]), phi_q[r], signs
+                subject, subject.format_number(gamma[r], scale=scale, uncertainty=errors[r]), phi_q[r], symbol_names
             )
-            for r in shown
+            for r in shown_rows
         ),
         make_paragraph("The accelerations, of centres of mass and of angles, are"),
         *_tabulate_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
-        subject.make_value_equation(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
+        subject.make_value_equation(symbol_names[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
     coordinate = subject.simulation.source.coordinates[k]
     return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
@@ -422,7 +422,7 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
         return
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
-    F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
+    F = [float(drawn.run[f"{name}.{component}"][-1]) for component in ("Fx", "Fy", "F")]
     requested: list[Block] = []
     if subject.model.degrees_of_freedom:
         requested.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
@@ -462,16 +462,16 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
     left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
-    signs = [make_indexed_symbol("lambda", k) for k in range(1, len(model.rows) + 1)]
+    symbol_names = [make_indexed_symbol("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
-    shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
+    shown_rows = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
     blocks: list[Block] = [
         make_paragraph("Coordinate by coordinate ", BALANCE, _format_omission(n), " is, in N and N m,")
     ]
-    for k in shown:
+    for k in shown_rows:
         q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
-        what = Formula(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
-        blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
+        side = Formula(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
+        blocks.append(_make_linear_equation(subject, side, phi_q[:, k], symbol_names))
     return [*blocks, make_paragraph("and the multipliers are")]
 
 

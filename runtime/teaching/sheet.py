@@ -101,7 +101,7 @@ class Subject:
         return Equation(left, (Formula(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 
-def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed: int) -> Subject:
+def make_subject(model: Model, simulation: Simulation, exercise_data: ExerciseData, seed: int) -> Subject:
     """Return the subject of a sheet; its questions treat at most two joints and one drive, drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     owners_by_kind = {
@@ -114,7 +114,7 @@ def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed:
             sorted(rng.permutation(len(owners_by_kind[kind]))[:max_count])
         ]
     ]
-    return Subject(model, make_notation(model), simulation, data, rng, tuple(selected))
+    return Subject(model, make_notation(model), simulation, exercise_data, rng, tuple(selected))
 
 
 def list_units(scene: Scene) -> dict[str, tuple[str, float]]:
@@ -135,15 +135,19 @@ def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> t
     mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
     facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
     title = format_one_line(mechanism.title or mechanism.name)
-    given = tuple(_build_given_sections(subject))
-    requested = tuple(Section(f"{k}. {x.title}", x.requested) for k, x in enumerate(questions, 1))
-    solved = tuple(_build_solution_sections(k, question) for k, question in enumerate(questions, 1))
-    last = Section("Parameter values", tuple(_build_repetition_blocks(subject)))
+    given_sections = tuple(_build_given_sections(subject))
+    question_sections = tuple(Section(f"{k}. {x.title}", x.requested) for k, x in enumerate(questions, 1))
+    solution_sections = tuple(_build_solution_sections(k, question) for k, question in enumerate(questions, 1))
+    value_section = Section("Parameter values", tuple(_build_repetition_blocks(subject)))
     notation = subject.notation
     sheet = Document(
-        f"Exercise: {title}", facts, append_paper_section(prepend_symbols_section((*given, *requested), notation))
+        f"Exercise: {title}",
+        facts,
+        append_paper_section(prepend_symbols_section((*given_sections, *question_sections), notation)),
     )
-    sections = append_paper_section(prepend_symbols_section((*given, *sum(solved, ()), last), notation))
+    sections = append_paper_section(
+        prepend_symbols_section((*given_sections, *sum(solution_sections, ()), value_section), notation)
+    )
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 

@@ -202,7 +202,8 @@ def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> 
 def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
     """Return q, q̇ and array sizes of the start at the file's values as JSON; None if C finds the start in a page.
 
-    For mechanisms of LARGE or more coordinates it is always returned, since C cannot assemble them.
+    For mechanisms of MIN_SPARSE_COORDINATES or more coordinates it is always returned, with "large", since C cannot
+    assemble them.
     """
     p = prepare_values(compiled, {})[0]
     if compiled.n < MIN_SPARSE_COORDINATES:

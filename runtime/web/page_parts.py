@@ -100,7 +100,7 @@ def _run_scene(simulation: Simulation) -> Result:
 def _describe_drawing(rig: Rig) -> dict[str, Any]:
     """Return the JSON data of the drawing: {looks, pixels}.
 
-    looks: CSS classes of the shapes. pixels: pixels per metre on a wide and on a narrow screen.
+    looks: CSS class of each shape. pixels: pixels per metre on a wide and on a narrow screen, so that it fits.
     """
     pixels_per_metre = []
     for inches in (WIDE_INCHES, NARROW_INCHES):

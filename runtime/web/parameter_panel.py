@@ -100,14 +100,14 @@ def list_units(source: KernelSource) -> dict[str, dict[str, float]]:
     }
 
 
-def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value: float, end: float) -> float:
+def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, current_value: float, end: float) -> float:
     """Return the end of a slider's range, or if `end` is not allowed, the allowed value nearest to it, by bisection.
 
     The bisection begins at the current `value`; a margin of BOUND_MARGIN is kept. `end` is also returned if the current
     value is not allowed.
     """
 
-    def is_value_refused(new_value: float) -> bool:
+    def is_value_invalid(new_value: float) -> bool:
         """Return whether a value of the parameter violates a condition."""
         try:
             prepare_values(compiled, {parameter.address: new_value})
@@ -115,16 +115,16 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value
             return True
         return False
 
-    if not is_value_refused(end) or is_value_refused(value):
+    if not is_value_invalid(end) or is_value_invalid(current_value):
         return end
-    accepted, refused = value, end
+    valid_value, invalid_value = current_value, end
     for _ in range(N_BISECTIONS):
-        middle = 0.5 * (accepted + refused)
-        accepted, refused = (accepted, middle) if is_value_refused(middle) else (middle, refused)
+        middle = 0.5 * (valid_value + invalid_value)
+        valid_value, invalid_value = (valid_value, middle) if is_value_invalid(middle) else (middle, invalid_value)
     return (
         0.0
-        if abs(accepted) < BOUND_MARGIN * abs(value) and not is_value_refused(0.0)
-        else accepted + BOUND_MARGIN * (value - accepted)
+        if abs(valid_value) < BOUND_MARGIN * abs(current_value) and not is_value_invalid(0.0)
+        else valid_value + BOUND_MARGIN * (current_value - valid_value)
     )
 
 

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
-from gudgeon.simulation.lyapunov import explain_invalid_tangent
+from gudgeon.simulation.lyapunov import explain_invalid_variational_equation
 from gudgeon.simulation.neighbours import DifferenceNorm
 from gudgeon.simulation.predictability_horizon import build_start_state
 from gudgeon.simulation.simulation import Simulation
@@ -241,7 +241,7 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
             duffing.lyapunov(1.0, **odd)
     with pytest.raises(BadValueError, match="no section"):
         _ = duffing.lyapunov(1.0).motion
-    assert explain_invalid_tangent(duffing.source) == ""
+    assert explain_invalid_variational_equation(duffing.source) == ""
 
 
 def test_a_scene_that_sticks_is_followed_by_a_twin() -> None:

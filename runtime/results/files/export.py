@@ -99,7 +99,9 @@ def build_dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFram
 def build_batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
     """Return series of a batch as a long pandas table with a row for each reached sample; see Batch.to_dataframe.
 
-    Raises MemoryError if the table would exceed the free memory. `names` None: all series.
+    Its columns are the number of the run, the given parameters, t and the series; its `attrs` have the units, and
+    mechanism, scene and title. Without runs it is empty. `names` None: all series. Raises MemoryError if the table
+    would exceed the free memory.
     """
     pandas_module = _import_pandas()
     n_columns = len(_select_batch_series(batch, names)) + len(batch.parameters) + 2
@@ -265,7 +267,8 @@ def _write_mat(
 def _make_matlab_names(names: Sequence[str]) -> dict[str, str]:
     """Return a valid and unique MATLAB name for each name: "S9.y" → "S9_y".
 
-    Keywords get an underscore, repetitions a number, and long names are cut.
+    Keywords get a final underscore, names that begin with no letter an "x", and repetitions a number. Names are cut to
+    MAX_MATLAB_NAME characters.
     """
     matlab_names: dict[str, str] = {}
     used = {"variables", "names", "units", "meanings", "mechanism", "scene"}

@@ -326,11 +326,11 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
 
 def _check_names_and_units(source: KernelSource) -> None:
     """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
-    named_items: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
-    named_items += source.points
+    parts: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    parts += source.points
     choices = [choice for slot in source.slots for choice in slot.words]
     units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
-    names = [item.name for item in named_items] + [slot.address for slot in source.slots] + [*source.outputs]
+    names = [part.name for part in parts] + [slot.address for slot in source.slots] + [*source.outputs]
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is not a valid name")
@@ -356,7 +356,7 @@ def _read_series(file: File, name: str, n_samples: int) -> Array:
 
 
 def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
-    """Return p, given and is_given of the file, as in Result. Raises ValueError if given values differ."""
+    """Return p with derived parameters, given and is_given. Raises ValueError if a given value differs from p."""
     n_parameters, n_derived = len(source.slots), len(source.derived)
     if file.is_old:
         p = file.read_numbers("parameters.prepared", n_parameters + n_derived)
@@ -404,7 +404,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
 
 
 def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
-    """Return the envelope over the steps; None if the run had none or the file is older."""
+    """Return the envelope over the steps, TRACE_COLUMNS of each joint with play; None without one or in older files."""
     if not file.has_entry(TRACE):
         return None
     t = file.read_numbers(f"{TRACE}/t")
@@ -414,7 +414,7 @@ def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
 
 
 def rebuild_samples(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> dict[str, Any]:
-    """Return q, v, accelerations, state, memory and work of a Result by name, rebuilt from samples of their series."""
+    """Return q, v, accelerations, state (contact codes), memory (discrete states), work of a Result by name."""
     q, v, a = (_read_motion(source, stored_series, n_samples, order) for order in range(3))
     return {
         "q": q,

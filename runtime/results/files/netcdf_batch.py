@@ -190,7 +190,7 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
 
 
 def _build_table_of_runs(batch: Batch, group: str) -> Table:
-    """Return a table of netcdf.PARTS for all runs, with a column of run numbers. Raises UnknownNameError."""
+    """Return a table of netcdf.PARTS of all runs that began, with a column of run numbers. Raises UnknownNameError."""
     if group not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {group!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and group in ("impacts", "events"):
@@ -417,7 +417,11 @@ def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: i
 def read_stored_series(
     long_tables: LongTables, stored_names: Any, names: tuple[str, ...], samples: Array, n_columns: int
 ) -> dict[str, Array]:
-    """Return the stored series of a batch without states, (n, `n_columns`) each, by name. Raises ValueError."""
+    """Return the stored series of a batch without states, (n, `n_columns`) each, by name, padded by NaN.
+
+    `stored_names`: names in the file; `names`: all series of the scene; `samples` (n,): number of samples of each run.
+    Raises ValueError for unknown names, or if the numbers of rows are not those of `samples`.
+    """
     is_valid = (
         isinstance(stored_names, list) and "t" in stored_names and all(name in ("t", *names) for name in stored_names)
     )

@@ -67,7 +67,7 @@ class File:
 
         Raises InputError for a file of the other kind of result, ValueError for any other format.
         """
-        self._file, self._left = file, float(size)
+        self._file, self._bytes_left = file, float(size)
         stored_format = self.read_text_attribute("gudgeon")
         format_name = stored_format.partition("/")[0]
         if format_name in LOADERS and not formats[0].startswith(f"{format_name}/"):
@@ -105,10 +105,10 @@ class File:
 
         `length` None allows any length.
         """
-        item = self._get_dataset(name, length)
-        if item.dtype.newbyteorder("=") != np.dtype(dtype):
-            raise ValueError(f"{name} has numbers of type {item.dtype}, expected {dtype}")
-        values: Array = item[...].astype(dtype, copy=False)
+        dataset = self._get_dataset(name, length)
+        if dataset.dtype.newbyteorder("=") != np.dtype(dtype):
+            raise ValueError(f"{name} has numbers of type {dataset.dtype}, expected {dtype}")
+        values: Array = dataset[...].astype(dtype, copy=False)
         return values
 
     def read_integers_or_floats(self, name: str, length: int) -> Array:
@@ -122,43 +122,44 @@ class File:
         """
         import h5py
 
-        item = self._get_dataset(name, length)
-        if h5py.check_string_dtype(item.dtype) is None:
+        dataset = self._get_dataset(name, length)
+        if h5py.check_string_dtype(dataset.dtype) is None:
             raise ValueError(f"{name} has numbers, expected texts")
-        return [str(text) for text in item.asstr()[...]]
+        return [str(text) for text in dataset.asstr()[...]]
 
     def _get_dataset(self, name: str, length: int | None) -> Any:
         """Return a one-dimensional dataset after checks of its length, storage and size; raise ValueError otherwise.
 
-        Its data must be in this file. Its uncompressed size, over MAX_COMPRESSION if compressed, is subtracted from the
-        bytes of the file that remain, which must not become negative. `length` None allows any length.
+        Its data must be in this file. Its uncompressed size, over MAX_COMPRESSION if compressed, is subtracted from
+        `_bytes_left`, which must not become negative: all datasets together fit in the size of the file. `length` None
+        allows any length.
         """
         import h5py
         from h5py import h5d
 
         group, _, entry_name = name.rpartition("/")
-        item = _get_hard_linked_entry(self._get_group(group) if group else self._file, entry_name)
-        if not isinstance(item, h5py.Dataset) or len(item.shape or ()) != 1:
+        dataset = _get_hard_linked_entry(self._get_group(group) if group else self._file, entry_name)
+        if not isinstance(dataset, h5py.Dataset) or len(dataset.shape or ()) != 1:
             raise ValueError(f"{name} is not a one-dimensional variable")
-        if length is not None and item.shape[0] != length:
-            raise ValueError(f"{name} has {item.shape[0]} values, expected {length}")
-        creation_properties, n_bytes = item.id.get_create_plist(), item.shape[0] * item.dtype.itemsize
+        if length is not None and dataset.shape[0] != length:
+            raise ValueError(f"{name} has {dataset.shape[0]} values, expected {length}")
+        creation_properties, n_bytes = dataset.id.get_create_plist(), dataset.shape[0] * dataset.dtype.itemsize
         if creation_properties.get_layout() == h5d.VIRTUAL or creation_properties.get_external_count():
             raise ValueError(f"{name} is in another file")
         compression_limit = MAX_COMPRESSION if creation_properties.get_nfilters() else 1
-        self._left -= n_bytes / compression_limit
-        if self._left < 0 or item.id.get_storage_size() * compression_limit < n_bytes:
+        self._bytes_left -= n_bytes / compression_limit
+        if self._bytes_left < 0 or dataset.id.get_storage_size() * compression_limit < n_bytes:
             raise ValueError(f"{name} has more values than fit in the file")
-        return item
+        return dataset
 
     def _get_group(self, name: str) -> Any:
         """Return a group. Raises ValueError if there is none, or if it is a link or a dataset."""
         import h5py
 
-        item = _get_hard_linked_entry(self._file, name)
-        if not isinstance(item, h5py.Group):
+        entry = _get_hard_linked_entry(self._file, name)
+        if not isinstance(entry, h5py.Group):
             raise ValueError(f"{name} is not a group")
-        return item
+        return entry
 
 
 def _get_hard_linked_entry(group: Any, name: str) -> Any:
@@ -182,9 +183,9 @@ def check_type(value: Any, expected_type: Any, location: str) -> None:
         _check_tuple(value, get_args(expected_type), location)
     elif isinstance(origin, type) and issubclass(origin, Mapping):
         _check_instance(value, Mapping, location)
-        for key, item in value.items():
+        for key, element in value.items():
             _check_instance(key, str, location)
-            check_type(item, get_args(expected_type)[1], f"{location}.{key}")
+            check_type(element, get_args(expected_type)[1], f"{location}.{key}")
     elif isinstance(expected_type, UnionType):
         if not any(_has_type(value, member_type) for member_type in get_args(expected_type)):
             raise TypeError(f"{location} is {type(value).__name__}, expected {expected_type}")
@@ -212,8 +213,8 @@ def _check_tuple(value: Any, item_types: tuple[Any, ...], location: str) -> None
         item_types = item_types[:1] * len(value)
     if len(item_types) != len(value):
         raise TypeError(f"{location} has {len(value)} entries, expected {len(item_types)}")
-    for k, (item, item_type) in enumerate(zip(value, item_types, strict=True)):
-        check_type(item, item_type, f"{location}[{k}]")
+    for k, (element, element_type) in enumerate(zip(value, item_types, strict=True)):
+        check_type(element, element_type, f"{location}[{k}]")
 
 
 def _check_instance(value: Any, expected_class: Any, location: str) -> None:

@@ -28,7 +28,7 @@ MAX_SCENE_COLUMNS = 4  # scenes in one table
 # of a joint with play: name -> (unit that a table can scale, row label); other constants are in --json only
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
 MIN_SHOWN_AUDIT = 1e-3  # value, as a multiple of the limit, from which on a check of the audit has its own row
-NEED_A_LEGEND = ("δ̇/δ̇⁻ during contact", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
+VERBOSE_ROWS = ("δ̇/δ̇⁻ during contact", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
 @dataclass(frozen=True)
@@ -151,9 +151,9 @@ def replace_non_finite_numbers(value: Any) -> Any:
     Tuples become lists, NumPy scalars Python numbers.
     """
     if isinstance(value, dict):
-        return {key: replace_non_finite_numbers(item) for key, item in value.items()}
+        return {key: replace_non_finite_numbers(element) for key, element in value.items()}
     if isinstance(value, (list, tuple)):
-        return [replace_non_finite_numbers(item) for item in value]
+        return [replace_non_finite_numbers(element) for element in value]
     if hasattr(value, "item"):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value
@@ -163,14 +163,14 @@ def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose
     """Return rich tables for a terminal, with a column for each scene and a row for each quantity.
 
     Each table has as many columns as fit `width` characters, at least one and at most MAX_SCENE_COLUMNS. `verbose` adds
-    the rows of NEED_A_LEGEND. Only the first table has the title.
+    the rows whose names end as in VERBOSE_ROWS. Only the first table has the title.
     """
     from rich.measure import Measurement
 
     from gudgeon.language.text_output import make_plain_console
 
     wide_console = make_plain_console(10_000)
-    rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
+    rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(VERBOSE_ROWS)]
     table_list: list[Table] = []
     for n_columns in range(min(MAX_SCENE_COLUMNS, len(reports)), 0, -1):
         column_ranges = [slice(first, first + n_columns) for first in range(0, len(reports), n_columns)]
@@ -233,16 +233,16 @@ def _build_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return rows
 
 
-def _format_peak_cell(value: float, unit: str, t: float, max_magnitudes: Mapping[str, float]) -> str:
+def _format_peak_cell(peak: float, unit: str, t: float, max_magnitudes: Mapping[str, float]) -> str:
     """Return a peak and its time as a cell, "–" if it is not known, "≈ 0" if it is rounding error.
 
     `max_magnitudes` has the largest magnitude of the run by unit.
     """
-    if math.isfinite(t) and _is_rounding_error(abs(value), unit, max_magnitudes):
+    if math.isfinite(t) and _is_rounding_error(abs(peak), unit, max_magnitudes):
         return ZERO_CELL
-    factor, unit_text = choose_plot_unit(value, unit)
+    factor, unit_text = choose_plot_unit(peak, unit)
     time_text = format_quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
-    return f"{value * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
+    return f"{peak * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
 
 
 def _is_rounding_error(magnitude: float, unit: str, max_magnitudes: Mapping[str, float]) -> bool:
@@ -425,7 +425,7 @@ def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, lis
 
 
 def _format_audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the row of the largest value of the audit, as a multiple of its limit, then rows of single checks.
+    """Return the row of the largest value of the audit in each scene, as a multiple of its limit, then a row a check.
 
     A check has a row if its value is MIN_SHOWN_AUDIT or more in any scene. "–": without audit.
     """

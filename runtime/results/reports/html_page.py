@@ -104,10 +104,11 @@ def escape_line(content: str) -> str:
     return escape(format_one_line(content))
 
 
-def build_table(column_names: Sequence[str], rows: Iterable[Sequence[str]], holds_words: bool = False) -> str:
+def build_table(column_names: Sequence[str], rows: Iterable[Sequence[str]], has_text_cells: bool = False) -> str:
     """Return an HTML table of escaped cells; "" without rows.
 
-    `holds_words` aligns the cells as words, not as numbers. Empty `column_names` leave out the header.
+    `has_text_cells`: the cells are words, with the CSS class of words instead of that of numbers. Empty `column_names`
+    leave out the header.
     """
     body_rows = "".join(
         f"<tr>{''.join(f'<td>{escape(escape_invisible(cell))}</td>' for cell in row)}</tr>" for row in rows
@@ -116,7 +117,7 @@ def build_table(column_names: Sequence[str], rows: Iterable[Sequence[str]], hold
         return ""
     header_cells = "".join(f"<th scope='col'>{escape(escape_invisible(name))}</th>" for name in column_names)
     head_element = f"<thead><tr>{header_cells}</tr></thead>" if any(column_names) else ""
-    class_attribute = " class='g-words'" if holds_words else "" if any(column_names) else " class='g-pairs'"
+    class_attribute = " class='g-words'" if has_text_cells else "" if any(column_names) else " class='g-pairs'"
     element = f"<table{class_attribute}>{head_element}<tbody>{body_rows}</tbody></table>"
     return f"<div class='g-wide' tabindex='0'>{element}</div>"
 

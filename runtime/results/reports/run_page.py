@@ -65,19 +65,21 @@ def build_sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
 
 def format_report(report: Mapping[str, Any]) -> str:
     """Return the report as text for a terminal, section by section, with warnings and notes at the end."""
-    parts: list[tuple[str, Rows]] = [("", [("", _describe_run(report))])]
+    sections: list[tuple[str, Rows]] = [("", [("", _describe_run(report))])]
     has_examination = report["trust"]["asked"]
-    parts += [(f"guide {name}", build_guide_rows(values, has_examination)) for name, values in report["guides"].items()]
-    parts += [
+    sections += [
+        (f"guide {name}", build_guide_rows(values, has_examination)) for name, values in report["guides"].items()
+    ]
+    sections += [
         (f"{'corner' if values['corner'] else 'joint'} {name}", build_joint_rows(values, has_examination))
         for name, values in report["joints"].items()
     ]
-    parts += [
+    sections += [
         ("energy", build_energy_rows(report)),
         ("predictability and accuracy", build_accuracy_rows(report["trust"])),
     ]
     lines_of_text = [_format_title(report)]
-    for heading, rows in parts:
+    for heading, rows in sections:
         lines_of_text += [heading] if heading and rows else []
         lines_of_text += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
     lines_of_text += [
@@ -201,9 +203,9 @@ def _format_range_cell(quantiles: Mapping[str, float], unit: str) -> str:
     return " … ".join(format_quantity(quantiles[name], unit) for name in ("min", "median", "max"))
 
 
-def _format_ratio(value: float, ideal: float) -> str:
+def _format_ratio(ratio: float, ideal: float) -> str:
     """Return the ratio of a value to the ideal one: ", with play 1.2 times that"; "" if the ideal value is 0."""
-    return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
+    return f", with play {ratio / ideal:.3g} times that" if ideal > 0.0 else ""
 
 
 def build_energy_rows(report: Mapping[str, Any]) -> Rows:
@@ -230,8 +232,9 @@ def build_energy_rows(report: Mapping[str, Any]) -> Rows:
 def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
     """Return the rows (name, cell) of a run's accuracy: drift, tolerance, step, predictability horizon, differences.
 
-    A tolerance or step that is not finite has no row; a horizon that is not finite becomes "not requested". Without a
-    requested comparison with smaller steps, the last row says so.
+    `accuracy` has the values of `run_report._collect_accuracy_values`. A tolerance or step that is not finite has no
+    row; a horizon that is not finite becomes "not requested". Without a requested comparison with a more accurate run,
+    the last row is NOT_REQUESTED.
     """
     rows = [("drift, max |Φ|", f"{accuracy['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{accuracy['phi_dot_max']:.2e}")]
     if math.isfinite(accuracy["rtol"]):

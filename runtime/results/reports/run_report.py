@@ -239,9 +239,9 @@ def _compute_time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: 
     """Return the fractions of the time by mode: free, impacting (from an onset to the first maximum of δ), contact,
     film.
 
-    The time in contact follows from onsets and separations. Its impacting part is from the second pass, else from the
-    contact states at the samples. A joint with a film has "film" instead of "free". All are NaN for a run without
-    duration.
+    The time in contact follows from onsets and separations. Its impacting part is from the examination (repeated run)
+    of a joint with dry contact, else from the contact codes at the samples. A joint with a film has "film" instead of
+    "free". All are NaN for a run without duration.
     """
     begin, end = float(run.t[0]), float(run.t[-1])
     if not end > begin:
@@ -286,8 +286,9 @@ def _compute_rms_force(run: Result, joint: str) -> float:
 def _compute_energy_balance(run: Result) -> dict[str, float] | None:
     """Return the works up to the end and the terms of the energy balance, in J; None for a scene without masses.
 
-    "turned_over" is the energy throughput. "not_told_apart" is the work of joints with play that is in no dissipated
-    energy; it is present only if all joints have contact statistics.
+    Keys: works of drives, forces and clearances; "change" of kinetic and potential energy; "residual", the largest of
+    the run; "turned_over", the energy throughput. "not_told_apart" is the work of joints with play less the energies
+    that contact, friction and film dissipate; it is present only if all joints have contact statistics.
     """
     if run.source.massless:
         return None

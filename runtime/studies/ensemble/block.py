@@ -32,11 +32,6 @@ from gudgeon.studies.ensemble.measures import (
     list_sliding_requests,
 )
 from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, group_notes, merge_notes
-from gudgeon.studies.ensemble.origins import (
-    compute_subtracted_series,
-    find_scene_subtracted_over_steps,
-    load_subtracted_scene,
-)
 from gudgeon.studies.ensemble.parameter_values import (
     ROUNDING,
     evaluate_expression_for_runs,
@@ -44,6 +39,11 @@ from gudgeon.studies.ensemble.parameter_values import (
     find_parameter,
     find_parameter_key,
     parse_real_value,
+)
+from gudgeon.studies.ensemble.subtracted_series import (
+    compute_subtracted_series,
+    find_scene_subtracted_over_steps,
+    load_subtracted_scene,
 )
 
 if TYPE_CHECKING:
@@ -367,11 +367,11 @@ class _Collector:
         failed = {failure.run: str(failure.error) for failure in batch.failures}
         for i, message in failed.items():
             failures[runs[i]] = message
-        origins = compute_subtracted_series(self.job, self.table, runs, batch, failures)
+        subtracted_series = compute_subtracted_series(self.job, self.table, runs, batch, failures)
         is_valid = np.array([not failures[i] for i in runs])
         for measure in self.job.run_settings.measures:
             self.measures[measure.name][runs] = np.where(
-                is_valid, evaluate_measure(batch, measure, spans, origins), np.nan
+                is_valid, evaluate_measure(batch, measure, spans, subtracted_series), np.nan
             )
         has_begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)

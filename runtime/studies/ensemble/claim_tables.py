@@ -67,9 +67,9 @@ class JudgedClaims(NamedTuple):
         for heading in dict.fromkeys(headings):
             counts = Counter(trends_by_claim["verdict"][[verdict == heading for verdict in headings]])
             nonzero_counts = (
-                (counts[verdict], verdict, many) for verdict, many in VERDICT_PLURALS.items() if counts[verdict]
+                (counts[verdict], verdict, plural) for verdict, plural in VERDICT_PLURALS.items() if counts[verdict]
             )
-            words = (f"{count} {many if count > 1 else verdict}" for count, verdict, many in nonzero_counts)
+            words = (f"{count} {plural if count > 1 else verdict}" for count, verdict, plural in nonzero_counts)
             heading_text = f" of “{heading}”" if heading else ""
             text_lines.append(f"{format_count(counts.total(), 'trend')}{heading_text}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
@@ -84,19 +84,21 @@ def _describe_deviations(printed_rows: pandas.DataFrame) -> str:
     printed_rows: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation. The
     deviation of a claim is the median over its ensembles.
     """
-    each = printed_rows.groupby("claim")
-    off = printed_rows["deviation"].abs().groupby(printed_rows["claim"]).median().dropna()
-    computed = int(each["median"].count().gt(0).sum())
-    numbers = format_count(each.ngroups, "printed number")
-    if not computed:
-        return f"{numbers}: none could be computed"
-    count_text = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
-    if not len(off):
+    rows_by_claim = printed_rows.groupby("claim")
+    deviations = printed_rows["deviation"].abs().groupby(printed_rows["claim"]).median().dropna()
+    n_computed = int(rows_by_claim["median"].count().gt(0).sum())
+    numbers_text = format_count(rows_by_claim.ngroups, "printed number")
+    if not n_computed:
+        return f"{numbers_text}: none could be computed"
+    count_text = (
+        numbers_text if n_computed == rows_by_claim.ngroups else f"{numbers_text}, {n_computed} of them computed"
+    )
+    if not len(deviations):
         return f"{count_text}: a printed 0 has no relative deviation"
-    median_text = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
+    median_text = f"{deviations.median():.0f} %" if deviations.median() >= 100.0 else f"{deviations.median():.3g} %"
     sentence = (
         f"half of the computed values deviate by {median_text} or less"
-        if len(off) > 1
+        if len(deviations) > 1
         else f"the computed value deviates by {median_text}"
     )
     return f"{count_text}: {sentence}"
@@ -222,11 +224,15 @@ def _yield_number_rows(
         values = finished_runs.read_values(number.cell, str(claim.measure), ensemble)
         finite_values = values[np.isfinite(values)]
         quartiles = np.quantile(finite_values, [0.25, 0.5, 0.75]) if len(finite_values) else np.full(3, np.nan)
-        base = number.printed
+        reference_value = number.printed
         if claim.reference_claim is not None:
-            others = finished_runs.read_values(cells[claim.reference_claim], str(claim.measure), ensemble)
-            base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
-        deviation = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
+            reference_values = finished_runs.read_values(cells[claim.reference_claim], str(claim.measure), ensemble)
+            reference_value = (
+                float(np.median(reference_values[np.isfinite(reference_values)]))
+                if np.isfinite(reference_values).any()
+                else math.nan
+            )
+        deviation = 100.0 * (quartiles[1] / reference_value - 1.0) if reference_value else math.nan
         plan = finished_runs.plans.by_part[number.cell.part]
         yield {
             "claim": str(claim.name),
@@ -255,17 +261,16 @@ def _describe_cell(plan: Plan, number: ResolvedNumber, value_texts: Mapping[str,
 
     A value is written as in the claim, else as in the study file (`value_texts`), else formatted with six digits.
     """
-    texts, words = (
+    texts, claimed_texts = (
         [],
         {str(name): typeset_quantity(str(text)) for name, text in number.claim.selection.at.items()},
     )
     for name, k in zip(_list_cell_dimensions(plan), number.cell.index, strict=True):
         for coordinate in (coordinate for coordinate in plan.coordinates if coordinate.over == (name,)):
             value = coordinate.values[k]
-            specified = value if isinstance(value, str) else format_quantity(float(value), coordinate.unit, 6)
-            texts.append(
-                f"{coordinate.name} {words.get(coordinate.name) or value_texts.get(coordinate.name, {k: specified})[k]}"
-            )
+            formatted_value = value if isinstance(value, str) else format_quantity(float(value), coordinate.unit, 6)
+            text_of_file = value_texts.get(coordinate.name, {k: formatted_value})[k]
+            texts.append(f"{coordinate.name} {claimed_texts.get(coordinate.name) or text_of_file}")
     return ", ".join(texts)
 
 

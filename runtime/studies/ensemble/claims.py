@@ -147,8 +147,8 @@ def resolve_claims(plans: Plans) -> ResolvedClaims:
             errors.append(error)
     for trend in claims.trends:
         try:
-            every = (check for statement in trend.statements for check in _build_checks(plans, statement))
-            trends.append(ResolvedTrend(trend, limit_checks(every, trend.name)))
+            checks = (check for statement in trend.statements for check in _build_checks(plans, statement))
+            trends.append(ResolvedTrend(trend, limit_checks(checks, trend.name)))
         except InputError as error:
             errors.append(error)
     if errors:
@@ -264,9 +264,9 @@ def _format_values_hint(coordinate: Coordinate) -> str:
     values = [
         str(value) if isinstance(value, str) else f"{value:.6g}" for value in np.atleast_1d(coordinate.values).tolist()
     ]
-    more = ", …" if len(values) > MAX_LISTED else ""
+    ellipsis = ", …" if len(values) > MAX_LISTED else ""
     shown = f" ({coordinate.unit})" if coordinate.unit else ""
-    return f"expected one of: {', '.join(values[:MAX_LISTED])}{more}{shown}"
+    return f"expected one of: {', '.join(values[:MAX_LISTED])}{ellipsis}{shown}"
 
 
 def _build_checks(plans: Plans, statement: TrendStatement) -> Iterator[Check]:
@@ -316,8 +316,8 @@ def _build_checks_along_dimension(selection: ResolvedSelection, statement: Trend
 def _build_checks_of_ordered_cells(cells: list[RunCell], statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of cells that are ordered along a dimension, for each measure of the statement.
 
-    `grows_along` compares consecutive cells, `alike_along` all pairs, and `spreads_along` the ranges of two measures
-    over all cells.
+    `grows_along` compares consecutive cells (key `by`: smallest ratio, default 1), `alike_along` all pairs (`by`:
+    relative tolerance, default 0), and `spreads_along` the ranges of two measures over all cells.
     """
     for k, measure in enumerate(map(str, statement.measures)):
         if statement.kind == "grows_along":
@@ -402,7 +402,8 @@ def _make_decrease_condition(measure: str, other_measure: str) -> Callable[[Read
 def _build_checks_of_cells(selection: ResolvedSelection, statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of each selected cell alone: `exceeds` another measure of the same run, or a number.
 
-    The kind for a number is "above", "below" or "near"; for "near", `by` is the relative tolerance.
+    The kind for a number is "above", "below" or "near". Key `by`: for `exceeds` the factor (default 1), for "near" the
+    relative tolerance (default 0).
     """
     for _, cell in selection.iterate_cells({}):
         for name in statement.measures:

@@ -91,21 +91,21 @@ class Estimate:
 
 
 def estimate_study(plan: Plan, threads: int | None) -> Estimate:
-    """Return size and run time of a plan, extrapolated from trial runs of each scene and structure, which are not
-    stored.
+    """Return size and run time of a plan, extrapolated linearly from trial runs of each scene and structure, which are
+    not stored.
 
-    threads: None means the number of cores. A trial shorter than MIN_TRIAL_S seconds is repeated, since the first one
-    includes the start-up.
+    The size counts each value twice, in a block and in the dataset. threads: None means the number of cores. A trial
+    shorter than MIN_TRIAL_S seconds is repeated, since the first one includes the start-up.
     """
     count = min(plan.runs_per_part, TRIAL_RUNS_PER_THREAD * (threads or count_available_threads()))
     runs = np.unique(np.linspace(0, plan.runs_per_part - 1, count).astype(int))
     seconds, size, failures = 0.0, 0, list[str]()
     for k, part in enumerate(plan.parts):
         job = plan.make_job(0, k, runs, threads)
-        block, used = _run_timed_block(job, part.simulation)
-        if used < MIN_TRIAL_S:
-            block, used = _run_timed_block(job, part.simulation)
-        seconds += used * plan.runs_per_part / len(runs)
+        block, trial_seconds = _run_timed_block(job, part.simulation)
+        if trial_seconds < MIN_TRIAL_S:
+            block, trial_seconds = _run_timed_block(job, part.simulation)
+        seconds += trial_seconds * plan.runs_per_part / len(runs)
         n_values = len(plan.run_settings.measures) + 3 + (len(plan.run_settings.keep) + 1) * block.t.shape[-1]
         overhead = max(0, len(encode_block(block, plan.digest)) - 8 * n_values * len(runs))  # of the file of a block
         # each value is in a block and in the dataset

@@ -158,16 +158,16 @@ class _NeighbourComputation:
         begin, end = (
             None if limit is None else float(limit[i]) for limit in table.spans.get(measure.window, (None, None))
         )
-        last, section = float(self.t_last[i]), self._resolve_section(i, measure)
-        shortest = section if isinstance(section, float) else 0.0
-        if last < table.t_end[i] and last - max(begin or 0.0, 0.0) <= shortest:
+        run_end, section = float(self.t_last[i]), self._resolve_section(i, measure)
+        min_duration = section if isinstance(section, float) else 0.0
+        if run_end < table.t_end[i] and run_end - max(begin or 0.0, 0.0) <= min_duration:
             return None
         parameters = {
             name: value if isinstance(value, str) else float(value)
             for name, value in ((name, column[i]) for name, column in table.columns.items())
         }
         return self.simulation.lyapunov(
-            last if end is None else min(end, last),
+            run_end if end is None else min(end, run_end),
             section=section,
             skip=max(begin or 0.0, 0.0),
             method=get_method_for_scene(source, settings.method),

@@ -104,8 +104,8 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_comm
     `sample`, and the variable `t` has the times of each run. Raises LookupError for a missing block.
     """
     h5py, plan = import_h5py(), folder.plan
-    kinds: Counter[str] = Counter()
-    first: dict[str, int] = {}
+    counts_by_kind: Counter[str] = Counter()
+    first_run_by_kind: dict[str, int] = {}
     notes: dict[str, Note] = {}
     with h5py.File(binary_file, "w", libver=("earliest", "v110")) as file:
         _write_attributes(file, plan)
@@ -118,25 +118,29 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_comm
         ]:
             _write_coordinate(h5py, file, coordinate)
         if plan.run_settings.keep:
-            time = np.arange(len(t)) if not has_common_times else t
-            message = (
+            sample_values = np.arange(len(t)) if not has_common_times else t
+            sample_coordinate = (
                 ("time", "s", "time of the sample") if has_common_times else ("sample", "", "number of the sample")
             )
-            _write_coordinate(h5py, file, Coordinate(message[0], (message[0],), time, *message[1:]))
+            _write_coordinate(
+                h5py,
+                file,
+                Coordinate(sample_coordinate[0], (sample_coordinate[0],), sample_values, *sample_coordinate[1:]),
+            )
         variables = _create_variables(h5py, file, plan, len(t), has_common_times)
         for block in _join_small_blocks(_read_blocks(folder)):
             _write_values(variables, plan, block, has_common_times)
             notes = merge_notes((notes, block.notes))
             for run, reason in enumerate(block.failures, block.first_run):
                 if reason:
-                    kinds[kind := get_message_kind(reason)] += 1
-                    first.setdefault(kind, run)
+                    counts_by_kind[kind := get_message_kind(reason)] += 1
+                    first_run_by_kind.setdefault(kind, run)
         frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MAX_NOTES]
         lines = (*plan.notes, *(_format_note(plan, note) for note in frequent))
         file.attrs["notes"] = "\n".join(lines)[: MAX_TEXT_LENGTH // 4]
-        file.attrs["failed"] = sum(kinds.values())
-        file.attrs["failure_kinds"] = json.dumps(most_frequent := dict(kinds.most_common(MAX_FAILURE_KINDS)))
-        file.attrs["failure_first"] = json.dumps([first[kind] for kind in most_frequent])
+        file.attrs["failed"] = sum(counts_by_kind.values())
+        file.attrs["failure_kinds"] = json.dumps(most_frequent := dict(counts_by_kind.most_common(MAX_FAILURE_KINDS)))
+        file.attrs["failure_first"] = json.dumps([first_run_by_kind[kind] for kind in most_frequent])
 
 
 def _format_note(plan: Plan, note: Note) -> str:
@@ -151,8 +155,8 @@ def _format_note(plan: Plan, note: Note) -> str:
         f"{coordinate.name}={_format_coordinate_value(coordinate.values[indices[coordinate.over[0]]])}"
         for coordinate in coordinates
     ][:MAX_LISTED_COORDINATES]
-    such = f" ({', '.join(values)})" if values else ""
-    return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
+    coordinates_text = f" ({', '.join(values)})" if values else ""
+    return f"{note.runs} of {plan.runs} runs, such as run {note.run}{coordinates_text}: {' '.join(note.text.split())}"
 
 
 def _format_coordinate_value(value: Any) -> str:
@@ -168,13 +172,13 @@ def _write_attributes(file: Any, plan: Plan) -> None:
     import gudgeon
 
     source = plan.parts[0].simulation.source
-    specified = json.dumps(plan.study.specified)  # a longer one is in the manifest of the folder only
+    study_json = json.dumps(plan.study.specified)  # a longer one is in the manifest of the folder only
     attributes = {
         "title": plan.study.title or source.title,
         "mechanism": source.mechanism,
         "gudgeon": gudgeon.__version__,
         "sha256": source.whole_sha256,
-        "study": specified if len(specified) < MAX_TEXT_LENGTH else "",
+        "study": study_json if len(study_json) < MAX_TEXT_LENGTH else "",
         "plan": plan.identity,
         "runs": plan.runs,
     }
@@ -279,14 +283,14 @@ def split_into_boxes(shape: tuple[int, ...], first: int, last: int) -> Iterable[
         return
     inner = math.prod(shape[1:])
     (i, low), (j, high) = divmod(first, inner), divmod(last, inner)
-    whole = tuple(slice(0, length) for length in shape[1:])
+    full_slices = tuple(slice(0, length) for length in shape[1:])
     if i == j:
-        parts = [(i, low, high)]
+        partial_rows = [(i, low, high)]
     else:
-        parts = [(i, low, inner)] if low else []
+        partial_rows = [(i, low, inner)] if low else []
         if i + bool(low) < j:
-            yield (slice(i + bool(low), j), *whole), slice((i + bool(low)) * inner, j * inner)
-        parts += [(j, 0, high)] if high else []
-    for row, a, b in parts:
-        for index, rows in split_into_boxes(shape[1:], a, b):
-            yield (row, *index), slice(row * inner + rows.start, row * inner + rows.stop)
+            yield (slice(i + bool(low), j), *full_slices), slice((i + bool(low)) * inner, j * inner)
+        partial_rows += [(j, 0, high)] if high else []
+    for row, a, b in partial_rows:
+        for index, elements in split_into_boxes(shape[1:], a, b):
+            yield (row, *index), slice(row * inner + elements.start, row * inner + elements.stop)

@@ -227,10 +227,10 @@ class StudyOfParts(Study):
     @property
     def failures(self) -> dict[str, int]:
         """Return the number of runs by kind of failure over all parts, the most frequent first."""
-        every: Counter[str] = Counter()
+        counts_by_kind: Counter[str] = Counter()
         for part in self._parts.values():
-            every.update(part.failures)
-        return dict(every.most_common())
+            counts_by_kind.update(part.failures)
+        return dict(counts_by_kind.most_common())
 
     @property
     def notes(self) -> tuple[str, ...]:

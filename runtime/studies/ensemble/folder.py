@@ -76,9 +76,9 @@ class StudyFolder:
         """
         file_names = sorted(name for name in os.listdir(self.path) if name != LOCK)
         old_manifest = read_manifest(self.path)
-        foreign = [name for name in file_names if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
-        if old_manifest is None and foreign:
-            message = f"{shorten_path(self.path)} is not a study folder: it contains {foreign[0]}"
+        other_files = [name for name in file_names if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
+        if old_manifest is None and other_files:
+            message = f"{shorten_path(self.path)} is not a study folder: it contains {other_files[0]}"
             raise InputError(message, hint="name another folder")
         for name in file_names:
             if PART.fullmatch(name):  # of a process that was killed
@@ -86,9 +86,11 @@ class StudyFolder:
         blocks = [part.block_runs for part in self.plan.parts]
         if old_manifest is not None and not restart:
             if old_manifest.get("said") != self.plan.input_description:
-                what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.input_description))
+                differences_text = "\n  ".join(
+                    _describe_differences(old_manifest.get("said"), self.plan.input_description)
+                )
                 hint = "start the study again with --restart (restart=True), or name another folder"
-                raise InputError(f"{shorten_path(self.path)} contains another study:\n  {what}", hint=hint)
+                raise InputError(f"{shorten_path(self.path)} contains another study:\n  {differences_text}", hint=hint)
             if old_manifest.get("blocks") == blocks:
                 return
         for name in [name for name in file_names if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
@@ -213,8 +215,8 @@ def _describe_differences(old_inputs: Any, new_inputs: Any) -> list[str]:
                 shorten_value(inputs[key]) if key in inputs else "not specified" for inputs in (old, new)
             )
             lines.append(f"{key.removeprefix('study.')} was {old_text}, is {new_text}")
-    rest = [f"and {len(lines) - _MAX_LISTED} further differences"] if len(lines) > _MAX_LISTED else []
-    return lines[:_MAX_LISTED] + rest
+    last_line = [f"and {len(lines) - _MAX_LISTED} further differences"] if len(lines) > _MAX_LISTED else []
+    return lines[:_MAX_LISTED] + last_line
 
 
 def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:

@@ -150,7 +150,7 @@ def _average_estimates(estimates: Sequence[ProbabilityEstimate]) -> ProbabilityE
     )
     separate_variances = [1.0 / estimate.trials - 1.0 / estimate.shared_trials for estimate in estimates]
     separate_trials = (
-        math.inf if min(separate_variances) <= 0.0 else math.fsum(1.0 / rest for rest in separate_variances)
+        math.inf if min(separate_variances) <= 0.0 else math.fsum(1.0 / variance for variance in separate_variances)
     )
     trials = (
         math.inf
@@ -170,14 +170,14 @@ def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) 
     check, with a tail probability that is divided by the number of checks (Bonferroni), is at most MAX_P_FAILS. It is
     undecided otherwise, without checks, or with a NaN. chance: stored in the verdict.
     """
-    if not estimates or any(math.isnan(one.p) for one in estimates):
+    if not estimates or any(math.isnan(estimate.p) for estimate in estimates):
         return ClaimVerdict("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(estimates))
-    low = min(one.compute_bound(-1.0) for one in estimates)
-    high = min(one.compute_bound(1.0, TAIL_PROBABILITY / len(estimates)) for one in estimates)
-    least_likely = min(estimates, key=lambda one: one.p)
+    low = min(estimate.compute_bound(-1.0) for estimate in estimates)
+    high = min(estimate.compute_bound(1.0, TAIL_PROBABILITY / len(estimates)) for estimate in estimates)
+    least_likely = min(estimates, key=lambda estimate: estimate.p)
     verdict = "fails" if high <= MAX_P_FAILS else "holds" if low >= MIN_P_HOLDS else "undecided"
-    denied = frozenset(
-        name for name, is_denied in (("holds", high < MIN_P_HOLDS), ("fails", low > MAX_P_FAILS)) if is_denied
+    excluded_verdicts = frozenset(
+        name for name, is_excluded in (("holds", high < MIN_P_HOLDS), ("fails", low > MAX_P_FAILS)) if is_excluded
     )
     return ClaimVerdict(
         verdict,
@@ -185,7 +185,7 @@ def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) 
         least_likely.compute_bound(-1.0),
         least_likely.compute_bound(1.0),
         chance,
-        denied,
+        excluded_verdicts,
         tuple(estimates),
     )
 

@@ -183,7 +183,12 @@ def _run_blocks(
             if finished or not running:
                 for block in islice(remaining, max(0, get_max_running() - len(running))):
                     running[submit_block(block)] = block
-            for future, block in sorted(finished, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
+            for future, block in sorted(
+                finished,
+                key=lambda future_and_block: (
+                    future_and_block[0].cancelled() or future_and_block[0].exception() is not None
+                ),
+            ):
                 folder.write_block(future.result())  # successful blocks are first, the others raise
                 study_progress.add_block(block)
             study_progress.report_progress()

@@ -81,7 +81,7 @@ def list_sliding_requests(measures: tuple[Measure, ...], source: KernelSource) -
 
     Joints that the scene lacks, or whose wear cannot be measured, are left out.
     """
-    joints = _list_joints(source, with_wear=True)
+    joints = _list_joints_with_play(source, with_wear=True)
     expected = (str(measure.of) for measure in measures if measure.statistic in WEAR_STATISTICS)
     return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in joints)
 
@@ -94,7 +94,7 @@ def find_measure_unit(measure: Measure, source: KernelSource) -> str | None:
     if measure.statistic in JOINT_STATISTICS:
         return (
             STATISTIC_UNITS[measure.statistic]
-            if measure.of in _list_joints(source, measure.statistic in WEAR_STATISTICS)
+            if measure.of in _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS)
             else None
         )
     if measure.statistic in CROSSING_STATISTICS:
@@ -113,7 +113,10 @@ def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputE
 
     if measure.statistic in JOINT_STATISTICS:
         return make_unknown_name_error(
-            "joint with play", measure.of, _list_joints(source, measure.statistic in WEAR_STATISTICS), measure.of.where
+            "joint with play",
+            measure.of,
+            _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS),
+            measure.of.where,
         )
     if measure.statistic in CROSSING_STATISTICS:
         return make_unknown_name_error("event", measure.of, _list_events(source), measure.of.where)
@@ -141,10 +144,11 @@ def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -
                 raise UnknownNameError(message, measure.of.where, error.hint) from None
 
 
-def _list_joints(source: KernelSource, with_wear: bool = False) -> list[str]:
-    """Return the names of the joints with play of a scene; with `with_wear` only those whose wear can be measured.
+def _list_joints_with_play(source: KernelSource, with_wear: bool = False) -> list[str]:
+    """Return the names of the joints with play of a scene, in the order of the columns of `Batch.peaks`.
 
-    Those have a known contact force and are not corners of a guide.
+    With `with_wear` only those whose wear can be measured: no corners of a guide, and with a contact force that the
+    clearance columns contain (`has_known_contact_force`).
     """
     return [
         joint.name
@@ -182,7 +186,9 @@ def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_se
     if measure.statistic in STEP_STATISTICS:
         return _read_step_peaks(batch, measure)
     if measure.statistic in JOINT_PEAKS:
-        return np.asarray(batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints(source).index(measure.of)])
+        return np.asarray(
+            batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints_with_play(source).index(measure.of)]
+        )
     if measure.statistic in WEAR_STATISTICS:
         return _compute_bearing_wear(batch, measure)
     if measure.statistic in CONTACT_STATISTICS:
@@ -229,18 +235,18 @@ def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end:
     Contacts count if their onset lies in the run's window, begin to end (s), (n,) each. A run without such a contact
     has 0 as number, else NaN.
     """
-    joint, is_count = _list_joints(batch.source).index(measure.of), measure.statistic == "impacts"
-    out = _make_default_values(batch, is_count, begin)
+    joint, is_count = _list_joints_with_play(batch.source).index(measure.of), measure.statistic == "impacts"
+    values = _make_default_values(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         contacts = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
         if is_count:
-            out[i] += len(contacts)
+            values[i] += len(contacts)
         elif len(contacts):
-            out[i] = (
+            values[i] = (
                 contacts["t_on"].min() if measure.statistic == "first_impact" else np.abs(contacts["deltadot"]).max()
             )
-    return out
+    return values
 
 
 def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
@@ -248,16 +254,16 @@ def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: A
 
     begin, end: of the windows, s, (n,) each. A run without an occurrence has 0 as number, NaN as time.
     """
-    number, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
-    out = _make_default_values(batch, is_count, begin)
+    event_index, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
+    values = _make_default_values(batch, is_count, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
-        t = events["t"][events["event"] == number]
+        t = events["t"][events["event"] == event_index]
         t = t[(t >= begin[i]) & (t <= end[i])]
         if is_count:
-            out[i] += len(t)
+            values[i] += len(t)
         elif len(t):
-            out[i] = t.min()
-    return out
+            values[i] = t.min()
+    return values
 
 
 def _make_default_values(batch: Batch, is_count: bool, begin: Array) -> Array:

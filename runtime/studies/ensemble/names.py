@@ -64,8 +64,8 @@ def typeset_quantity(text: str) -> str:
             if float(number) == 1.0
             else f"{number}·10{format_superscript(str(int(power)))}"
         )
-    shown = format_unit(re.sub(r"^u(?=[a-zA-Z])", "µ", unit))
-    return f"{number.replace('-', '−')}{'π' if pi else ''} {shown}"
+    unit_text = format_unit(re.sub(r"^u(?=[a-zA-Z])", "µ", unit))
+    return f"{number.replace('-', '−')}{'π' if pi else ''} {unit_text}"
 
 
 def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
@@ -80,10 +80,12 @@ def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
         return ()
     ((pi, unit),) = units_of_ends
     first, last = (float(f"{end[1]}e{end[2] or 0}") for end in ends if end)
-    row = (np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace)(first, last, parameter_values.count)
-    row[np.abs(row) < ZERO_TOL * np.abs(row).max()] = 0.0
-    between = (f"{value:.6g}{'*pi' if pi else ''} {unit}" for value in row[1:-1])
-    return str(parameter_values.texts[0]), *between, str(parameter_values.texts[1])
+    spaced_values = (np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace)(
+        first, last, parameter_values.count
+    )
+    spaced_values[np.abs(spaced_values) < ZERO_TOL * np.abs(spaced_values).max()] = 0.0
+    inner_texts = (f"{value:.6g}{'*pi' if pi else ''} {unit}" for value in spaced_values[1:-1])
+    return str(parameter_values.texts[0]), *inner_texts, str(parameter_values.texts[1])
 
 
 def collect_display_names(plans: Plans) -> Names:
@@ -93,16 +95,16 @@ def collect_display_names(plans: Plans) -> Names:
     """
     values: dict[str, dict[str, tuple[str, ...]]] = {}
     for part, plan in plans.by_part.items():
-        every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
+        texts_by_name: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
-            every |= {
+            texts_by_name |= {
                 str(name): _format_spaced_values(texts_of_column)
                 if texts_of_column.count
                 else tuple(map(str, texts_of_column.texts))
                 for name, texts_of_column in axis.columns.items()
             }
-        shown = {name: tuple(map(typeset_quantity, texts)) for name, texts in every.items()}
-        values[part] = {name: texts for name, texts in shown.items() if texts and all(texts)}
+        typeset_texts = {name: tuple(map(typeset_quantity, texts)) for name, texts in texts_by_name.items()}
+        values[part] = {name: texts for name, texts in typeset_texts.items() if texts and all(texts)}
     return Names(plans.file.titles, values, plans.file.about)
 
 

@@ -57,7 +57,7 @@ def group_notes(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, 
 def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
     """Return the notes of several groups of runs as one table by kind: counts add up, the first run is the example."""
     merged_notes: dict[str, Note] = {}
-    for kind, note in (item for table in note_tables for item in table.items()):
+    for kind, note in (kind_and_note for table in note_tables for kind_and_note in table.items()):
         before = merged_notes.get(kind)
         first = note if before is None or note.run < before.run else before
         merged_notes[kind] = Note(note.runs + (before.runs if before else 0), first.run, first.text)
@@ -72,15 +72,15 @@ def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[s
     It yields an empty table, which is filled at the end of the context: a note for each coordinate. first_run: index of
     the first run of the block, which is the example of the notes.
     """
-    noted: list[Mapping[str, float]] = []
+    deviations_by_run: list[Mapping[str, float]] = []
     notes: dict[str, Note] = {}
-    token = COLLECTED_GUESS_DEVIATIONS.set(noted)
+    token = COLLECTED_GUESS_DEVIATIONS.set(deviations_by_run)
     try:
         yield notes
     finally:
         COLLECTED_GUESS_DEVIATIONS.reset(token)
-    for name in dict.fromkeys(name for off in noted for name in off):
-        deviations = [off[name] for off in noted if name in off]
+    for name in dict.fromkeys(name for deviation_by_name in deviations_by_run for name in deviation_by_name):
+        deviations = [deviation_by_name[name] for deviation_by_name in deviations_by_run if name in deviation_by_name]
         text = (
             f"{name} begins {format_guess_difference(name, deviations[0])} from its guess: "
             f"{describe_missing_assembly(source)}; {LISTED}"

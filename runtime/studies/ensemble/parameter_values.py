@@ -61,7 +61,7 @@ def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> Run
     for source in sources:
         if (parameter := find_parameter(source, name)) is not None:
             return parameter
-    every = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
+    addresses = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
     try:
         read_given_parameters(
             sources[0], {str(name): 0.0}
@@ -69,7 +69,7 @@ def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> Run
     except InputError as error:
         if "has the address" not in error.message:
             raise type(error)(error.message, name.where, error.hint) from None
-    raise make_unknown_name_error("parameter", name, every, name.where)
+    raise make_unknown_name_error("parameter", name, addresses, name.where)
 
 
 def parse_parameter_value(text: Text, parameter: RuntimeParameter) -> float | str:
@@ -214,12 +214,14 @@ def check_constant_settings(study: StudyFile) -> None:
     Expressions that depend on parameters are checked for each run later.
     """
     constants: dict[str, float] = {}
-    for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
-        if written is None or (value := evaluate_constant(written, constants)) is None:
+    for name, expression in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
+        if expression is None or (value := evaluate_constant(expression, constants)) is None:
             continue
-        wrong, expected = find_impossible_values(name, np.rint([value]) if name == "output" else np.array([value]))
-        if wrong.any():
-            raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
+        is_impossible, expected = find_impossible_values(
+            name, np.rint([value]) if name == "output" else np.array([value])
+        )
+        if is_impossible.any():
+            raise BadValueError(f"{name} is {value:g}", expression.text.where, f"expected {expected}")
         constants |= {name: value} if name == "t_end" else {}
     last = constants.get("t_end", np.inf)
     for name, window in study.windows.items():

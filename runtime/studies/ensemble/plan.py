@@ -182,8 +182,8 @@ class Plan:
         if self.deviations is None:
             return {}, {}
         cell = indices_by_dimension.get("ensemble", np.zeros(n_runs, dtype=int)), indices_by_dimension["start"]
-        several = self.deviations.relative, self.deviations.absolute
-        relative, absolute = ({name: values[cell] for name, values in ensemble.items()} for ensemble in several)
+        both_deviations = self.deviations.relative, self.deviations.absolute
+        relative, absolute = ({name: values[cell] for name, values in ensemble.items()} for ensemble in both_deviations)
         return relative, absolute
 
     @cached_property
@@ -242,19 +242,19 @@ def check_study_size(study: StudyFile) -> None:
     """
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
-    numbers = [(axis.length, axis.where) for axis in study.axes]
-    numbers += [(study.draw.count, next(iter(study.draw.distributions)).where)] if study.draw else []
+    run_dimensions = [(axis.length, axis.where) for axis in study.axes]
+    run_dimensions += [(study.draw.count, next(iter(study.draw.distributions)).where)] if study.draw else []
     if study.starts:
         start_name = next(name for ensemble in study.starts.ensembles.values() for name in ensemble)
-        numbers.append((study.starts.count * len(study.starts.ensembles), start_name.where))
-    loaded, runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *numbers])
-    for count, most, several, what in (
-        (loaded, MAX_STRUCTURES, structures, "scenes with their choices, one library each"),
-        (runs, MAX_RUNS, [*structures, *numbers], "runs"),
+        run_dimensions.append((study.starts.count * len(study.starts.ensembles), start_name.where))
+    n_structures, n_runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *run_dimensions])
+    for count, max_count, dimensions, description in (
+        (n_structures, MAX_STRUCTURES, structures, "scenes with their choices, one library each"),
+        (n_runs, MAX_RUNS, [*structures, *run_dimensions], "runs"),
     ):
-        if count > most:
-            where = max(several, key=lambda one: one[0])[1]
-            raise BadValueError(f"the study has {count} {what}", where, f"expected at most {most:.0e}")
+        if count > max_count:
+            where = max(dimensions, key=lambda length_and_location: length_and_location[0])[1]
+            raise BadValueError(f"the study has {count} {description}", where, f"expected at most {max_count:.0e}")
 
 
 def _compute_sha256(value: Any) -> str:

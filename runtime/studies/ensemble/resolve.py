@@ -67,10 +67,10 @@ def resolve_study(study: StudyFile) -> Plan:
     structure, coordinates = _resolve_structure(study)
     parts = tuple(_load_structures(study))
     sources = [part.simulation.source for part in parts]
-    numbers, parameter_coordinates = _resolve_parameters(study, sources)
+    parameter_dimensions, parameter_coordinates = _resolve_parameters(study, sources)
     deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
     coordinates += parameter_coordinates + start_coordinates
-    expected = _resolve_run_settings(study, parts)
+    run_settings = _resolve_run_settings(study, parts)
     fixed = {
         str(name): parse_parameter_value(text, find_parameter_in_scenes(sources, name))
         for name, text in study.fixed.items()
@@ -82,12 +82,12 @@ def resolve_study(study: StudyFile) -> Plan:
     plan = Plan(
         study,
         tuple(structure),
-        (*numbers, *start_dimensions),
+        (*parameter_dimensions, *start_dimensions),
         fixed,
         deviations,
         tuple(coordinates),
         parts,
-        expected,
+        run_settings,
         _resolve_units(study, sources),
         tuple(_describe_ineffective_settings(study, sources)),
     )
@@ -149,9 +149,9 @@ def _resolve_parameters(
     dimensions, coordinates = [], []
     for axis in study.axes:
         columns = {}
-        for name, numbers in axis.columns.items():
+        for name, parameter_values in axis.columns.items():
             parameter = find_parameter_in_scenes(sources, name)
-            columns[str(name)] = parse_dimension_values(numbers, parameter, may_repeat=axis.grouped)
+            columns[str(name)] = parse_dimension_values(parameter_values, parameter, may_repeat=axis.grouped)
             coordinates.append(
                 Coordinate(str(name), (axis.name,), columns[str(name)], parameter.unit, parameter.address)
             )
@@ -162,8 +162,8 @@ def _resolve_parameters(
     if study.draw is not None:
         columns = _draw_values(study.draw, sources)
         dimensions.append(StudyDimension("draw", study.draw.count, columns))
-        message = f"point of {study.draw.method}, seed {study.draw.seed}"
-        coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
+        description = f"point of {study.draw.method}, seed {study.draw.seed}"
+        coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", description))
         for name in study.draw.distributions:
             parameter = find_parameter_in_scenes(sources, name)
             coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], parameter.unit, parameter.address))
@@ -178,19 +178,21 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
     """
     points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
     drawn_values = {}
-    for name, spread in draw.distributions.items():
+    for name, distribution in draw.distributions.items():
         parameter = find_parameter_in_scenes(sources, name)
-        first, second = (parse_real_value(text, parameter) for text in spread.ends)
-        where = spread.ends[1].where
-        if spread.kind == NORMAL and not second > 0.0:
+        first, second = (parse_real_value(text, parameter) for text in distribution.ends)
+        where = distribution.ends[1].where
+        if distribution.kind == NORMAL and not second > 0.0:
             raise BadValueError(f"a standard deviation of {second:g}", where, "expected a positive one")
-        if spread.kind != NORMAL and not first < second:
+        if distribution.kind != NORMAL and not first < second:
             raise BadValueError(f"from {first:g} to {second:g} {parameter.unit}", where, "expected from < to")
-        if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
-            raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
+        if distribution.kind not in (NORMAL, "uniform") and not first > 0.0:
+            raise BadValueError(
+                f"a geometric spread from {first:g}", distribution.ends[0].where, "expected positive ends"
+            )
         with np.errstate(over="ignore", invalid="ignore"):
-            values = compute_distribution_quantiles(spread, first, second, points[:, draw.names.index(name)])
-            drawn_values[str(name)] = check_finite_values(values, spread.ends[1])
+            values = compute_distribution_quantiles(distribution, first, second, points[:, draw.names.index(name)])
+            drawn_values[str(name)] = check_finite_values(values, distribution.ends[1])
     return drawn_values
 
 
@@ -273,14 +275,14 @@ def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSetting
     rtol = None if study.rtol is None else _parse_tolerance(study.rtol)
     for part in parts:
         source = part.simulation.source
-        for written, dimension, more in (
+        for expression, dimension, extra_dimensions in (
             (study.t_end, TIME, {}),
             (study.output, DIMENSIONLESS, ends),
             (study.step, TIME, ends),
             *((end, TIME, ends) for window in study.windows.values() for end in (window.begin, window.end)),
         ):
-            if written is not None:
-                check_expression(source, written, dimension, more)
+            if expression is not None:
+                check_expression(source, expression, dimension, extra_dimensions)
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
             check_lyapunov_measures(study, source)
@@ -350,31 +352,35 @@ def _describe_ineffective_settings(study: StudyFile, sources: Sequence[KernelSou
     names += [*study.draw.distributions] if study.draw else []
     names += [name for ensemble in study.starts.ensembles.values() for name in ensemble] if study.starts else []
     for axis in study.left_out:
-        for name, numbers in axis.columns.items():
-            count = numbers.count or len(numbers.texts)
+        for name, replaced_values in axis.columns.items():
+            count = replaced_values.count or len(replaced_values.texts)
             yield f"{name} is set for all runs, in place of {format_count(count, 'value')} in the study file"
     by_scene = {source.scene: source for source in sources}
     for name in dict.fromkeys(names):
-        if lacking := [scene for scene, source in by_scene.items() if find_parameter(source, str(name)) is None]:
-            yield f"{name} is not a parameter of scene {', '.join(lacking)}: its runs do not depend on it"
+        if scenes_without_it := [
+            scene for scene, source in by_scene.items() if find_parameter(source, str(name)) is None
+        ]:
+            yield f"{name} is not a parameter of scene {', '.join(scenes_without_it)}: its runs do not depend on it"
     if kinematic_scenes := [
         scene for scene, source in by_scene.items() if get_method_for_scene(source, str(study.method)) != study.method
     ]:
         names_of_scenes = ", ".join(kinematic_scenes)
         yield f"scene {names_of_scenes} has no degree of freedom: it follows its drives, and method has no effect"
     for measure in study.measures:
-        if lacking := [scene for scene, source in by_scene.items() if find_measure_unit(measure, source) is None]:
+        if scenes_without_it := [
+            scene for scene, source in by_scene.items() if find_measure_unit(measure, source) is None
+        ]:
             yield (
-                f"{measure.name}, {describe_measure(measure)}, is NaN in scene {', '.join(lacking)}, "
+                f"{measure.name}, {describe_measure(measure)}, is NaN in scene {', '.join(scenes_without_it)}, "
                 "which lacks the joint, event or series"
             )
     for name in study.keep:
-        if lacking := [scene for scene, source in by_scene.items() if name not in get_catalogue(source)]:
-            yield f"{name} is NaN in scene {', '.join(lacking)}, which lacks the series"
+        if scenes_without_it := [scene for scene, source in by_scene.items() if name not in get_catalogue(source)]:
+            yield f"{name} is NaN in scene {', '.join(scenes_without_it)}, which lacks the series"
 
 
 def _choose_block_size(plan: Plan, part_index: int) -> Part:
-    """Return a part of the plan with its number of runs per block, and the mean and maximum number of samples of a run.
+    """Return a copy of a part of the plan with runs per block, and the mean and maximum number of samples of a run.
 
     A block has at most MAX_BLOCK_RUNS runs, and its samples fit into MAX_BLOCK_BYTES. The numbers of samples are
     estimated from at most N_SIZING_RUNS evenly distributed runs.
@@ -435,8 +441,11 @@ def draw_deviations(starts: Starts, names: list[str]) -> Array:
     They are uniform in [−1, 1], or standard normal, and depend on the seed only. All cells of the study use the same
     ones (common random numbers), so that runs can be compared start by start.
     """
-    each = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
+    generators = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
     shape = (starts.count, len(names))
     return np.stack(
-        [rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape) for rng in each]
+        [
+            rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape)
+            for rng in generators
+        ]
     )

@@ -89,9 +89,9 @@ def _resolve_parts(studies: StudySet) -> Plans:
                 errors += error.errors
             except InputError as error:
                 errors.append(error)
-    different = list({str(error): error for error in errors}.values())
-    if different:
-        raise combine_errors(different)
+    unique_errors = list({str(error): error for error in errors}.values())
+    if unique_errors:
+        raise combine_errors(unique_errors)
     resolved_plans = Plans(studies, plans)
     return replace(resolved_plans, claims=resolve_claims(resolved_plans))
 
@@ -148,19 +148,19 @@ def run_plans(
     check_disk_and_memory(plans, folder, threads, executor is None)
     if plans.named:
         create_parts_folder(folder, list(plans.by_part), restart)
-    done = 0
+    n_done = 0
     for name, plan in plans.by_part.items():
 
         def report_part_progress(
-            fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done
+            fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = n_done
         ) -> None:
             """Report the progress of a part as a fraction of the runs of all parts, with the name of the part."""
             if progress:
                 progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
 
-        with StudyFolder(folder / name, plan).open_locked(restart) as opened:
-            finish_study(opened, threads, executor, report_part_progress if progress else None)
-        done += plan.runs
+        with StudyFolder(folder / name, plan).open_locked(restart) as study_folder:
+            finish_study(study_folder, threads, executor, report_part_progress if progress else None)
+        n_done += plan.runs
     study = (
         StudyOfParts(folder, list(plans.by_part), temporary_folder) if plans.named else Study(folder, temporary_folder)
     )
@@ -176,14 +176,14 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     Raises InputError for a folder without a study, or if any part is unfinished or damaged.
     """
     folder_path = Path(check_path(folder, "folder"))
-    if (manifest_ := read_manifest(folder_path)) is None:
+    if (manifest := read_manifest(folder_path)) is None:
         raise InputError(f"{shorten_path(folder_path)} is not a study folder: it has no {MANIFEST}")
-    if parts := list_part_names(manifest_):
+    if parts := list_part_names(manifest):
         for name in parts:
             load_study(folder_path / name)
         return StudyOfParts(folder_path, parts)
     if not (folder_path / DATASET).is_file():
         message = f"the study in {shorten_path(folder_path)} is not finished"
         raise InputError(message, hint="resume it by: gudgeon study FILE --out FOLDER")
-    check_dataset(folder_path, manifest_.get("plan"))
+    check_dataset(folder_path, manifest.get("plan"))
     return Study(folder_path)

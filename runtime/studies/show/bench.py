@@ -134,10 +134,10 @@ def _build_method_table(scene_bench: SceneBench, rows: Sequence[Row], columns: S
     from rich.text import Text
 
     table = make_rich_table(columns)
-    before = ""
+    previous_method = ""
     for row in rows:
-        method = row.setting.method if row.setting.method != before else ""
-        before = row.setting.method
+        method = row.setting.method if row.setting.method != previous_method else ""
+        previous_method = row.setting.method
         if row.failure:
             table.add_row(
                 method, str(row.setting), Text("failed", "red"), Text(f"at {format_seconds(row.failed_at)}", "red")
@@ -162,9 +162,9 @@ def _format_error_cell(scene_bench: SceneBench, measure: str, error: float) -> s
     )
 
 
-def _format_error(value: float) -> str:
+def _format_error(error: float) -> str:
     """Return an error as text with two digits, "1.2e-06"; "–" for NaN."""
-    return "–" if math.isnan(value) else f"{value:.1e}"
+    return "–" if math.isnan(error) else f"{error:.1e}"
 
 
 def _build_run_time_table(scene_bench: SceneBench) -> Table:
@@ -192,10 +192,10 @@ def describe_bench(scene_bench: SceneBench, marked_step: float | None) -> list[s
         return ["no degree of freedom: nothing is integrated, the error is the residual of the constraint equations"]
     first, second = (f"{r.method} at {r}" for r in scene_bench.references)
     a = scene_bench.agreement
-    differ = ", ".join(f"{name} {_format_error(x)}" for name, x in _pair_with_names(a.motion, a.path, a.force))
+    agreement_text = ", ".join(f"{name} {_format_error(x)}" for name, x in _pair_with_names(a.motion, a.path, a.force))
     lines = [
         f"references: {first} and {second}; a run is compared with the one by another method",
-        f"difference of the references: {differ}; errors below {RESOLUTION_FACTOR} times that are in brackets, "
+        f"difference of the references: {agreement_text}; errors below {RESOLUTION_FACTOR} times that are in brackets, "
         "not resolved",
     ]
     if math.isinf(a.motion):
@@ -204,11 +204,13 @@ def describe_bench(scene_bench: SceneBench, marked_step: float | None) -> list[s
     if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
         lines.append(f"observed order of rk4: {text}")
     if scene_bench.list_rows("rk4"):
-        good = [row for row in scene_bench.list_rows("rk4") if not row.failure and row.error.force < MAX_FORCE_ERROR]
-        bad = [row.setting.value for row in scene_bench.list_rows("rk4") if row.failure]
-        text = str(good[0].setting) if good else "none"
+        accurate_rows = [
+            row for row in scene_bench.list_rows("rk4") if not row.failure and row.error.force < MAX_FORCE_ERROR
+        ]
+        failed_steps = [row.setting.value for row in scene_bench.list_rows("rk4") if row.failure]
+        text = str(accurate_rows[0].setting) if accurate_rows else "none"
         line = f"largest step of rk4 with forces within {format_fraction(MAX_FORCE_ERROR)} of their peak: {text}"
-        lines.append(line + (f"; runs with {format_seconds(min(bad))} or more fail" if bad else ""))
+        lines.append(line + (f"; runs with {format_seconds(min(failed_steps))} or more fail" if failed_steps else ""))
     if marked_step is not None:
         lines.append(f"rk4 at {format_seconds(marked_step)}: {_describe_step(scene_bench, marked_step)}")
     return [*lines, *scene_bench.left_out]
@@ -228,14 +230,14 @@ def _describe_step(scene_bench: SceneBench, step: float) -> str:
     row: Row | None = scene_bench.find_row(Setting("rk4", step))
     if row is None:
         return "not tested"
-    off = (
+    differences = (
         (f"joint forces differ by {format_fraction(row.error.force)} of their peak", row.error.force),
         (f"journal paths by {format_fraction(row.error.path)} of c", row.error.path),
     )
-    specified = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
+    description = row.failure or ", ".join(text for text, value in differences if math.isfinite(value))
     if math.isfinite(scene_bench.contact):
-        specified += f"; the shortest contact lasts {scene_bench.contact / step:.1f} steps"
-    return specified
+        description += f"; the shortest contact lasts {scene_bench.contact / step:.1f} steps"
+    return description
 
 
 def _build_rhs_table(scene_benches: Sequence[SceneBench]) -> Table:

@@ -35,8 +35,8 @@ def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_st
     """
     shown = [scene_bench for scene_bench in scene_benches if scene_bench.references] or list(scene_benches)
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(11, 1.2 + 3.6 * len(shown)), dpi=120, layout="constrained")
-        axes = picture.subplots(len(shown), 2, squeeze=False, sharey="row")
+        figure = Figure(figsize=(11, 1.2 + 3.6 * len(shown)), dpi=120, layout="constrained")
+        axes = figure.subplots(len(shown), 2, squeeze=False, sharey="row")
         for (left, right), scene_bench in zip(axes, shown, strict=True):
             _draw_scene(left, right, scene_bench)
             if marked_step is not None and scene_bench.references:
@@ -56,11 +56,13 @@ def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_st
         ]
         label = "within the uncertainty of the references"
         handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=label))
-        message = " (partial: interrupted)" if any(scene_bench.interrupted for scene_bench in scene_benches) else ""
-        head = format_figure_title(f"{title}: run time against error{message}", 110)
-        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
-        picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
-    return picture
+        title_suffix = (
+            " (partial: interrupted)" if any(scene_bench.interrupted for scene_bench in scene_benches) else ""
+        )
+        figure_title = format_figure_title(f"{title}: run time against error{title_suffix}", 110)
+        figure.suptitle(figure_title, fontsize=12, fontweight="bold", x=0.012, ha="left")
+        figure.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
+    return figure
 
 
 def _select_marker(method: str) -> str:

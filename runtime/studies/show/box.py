@@ -68,7 +68,7 @@ def _print_box(
     The written files follow. With `as_json` it prints one JSON document with the rows of the CSV table instead.
     """
     if as_json:
-        rows = [row for one in boxes for row in list_cell_rows(one)]
+        rows = [row for verdict_box in boxes for row in list_cell_rows(verdict_box)]
         print_json(
             {
                 "mechanism": source.mechanism,
@@ -78,21 +78,23 @@ def _print_box(
             }
         )
         return
-    out = make_console()
+    console = make_console()
     for box in boxes:
-        edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
-        title = f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} per point: {edges}"
-        out.print(title + describe_interruption(box), style="bold")
+        ranges_text = ", ".join(f"{range_.name} {range_.low:.4g} … {range_.high:.4g}" for range_ in box.ranges)
+        title = (
+            f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} per point: {ranges_text}"
+        )
+        console.print(title + describe_interruption(box), style="bold")
         if box.full:
-            out.print(f"  {FULL_FORMULATION_NOTE}")
-        out.print(f"  {describe_verdict_counts(box.cells)}")
-        out.print(f"  {describe_comparison(box)}")
-        out.print(_build_verdict_table(box.cells))
+            console.print(f"  {FULL_FORMULATION_NOTE}")
+        console.print(f"  {describe_verdict_counts(box.cells)}")
+        console.print(f"  {describe_comparison(box)}")
+        console.print(_build_verdict_table(box.cells))
         if worst := select_worst_cells(box.cells):
-            out.print("  the worst points, and the commands that repeat them")
-            print_failures(out, mechanism, box, worst)
+            console.print("  the worst points, and the commands that repeat them")
+            print_failures(console, mechanism, box, worst)
     for path in written_paths:
-        out.print(f"wrote {format_path(path)}")
+        console.print(f"wrote {format_path(path)}")
 
 
 def describe_verdict_counts(cells: Sequence[Cell]) -> str:
@@ -114,7 +116,7 @@ def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
     groups: dict[tuple[Status, str], list[Cell]] = {}
     for cell in cells:
         groups.setdefault((cell.status, remove_numbers(cell.reason)), []).append(cell)
-    sorted_groups = sorted(groups.items(), key=lambda item: (SEVERITY.index(item[0][0]), -len(item[1]), item[0][1]))
+    sorted_groups = sorted(groups.items(), key=lambda group: (SEVERITY.index(group[0][0]), -len(group[1]), group[0][1]))
     return [(status, reason, cells_of_group) for (status, reason), cells_of_group in sorted_groups]
 
 

@@ -40,13 +40,20 @@ def draw_box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
     The left axes are a scatter plot over the two ranges that correlate most with the verdict. With more than two
     ranges, the right axes show parallel coordinates.
     """
-    wide = max(len(box.ranges) for box in boxes) > 2
+    has_parallel_coordinates = max(len(box.ranges) for box in boxes) > 2
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(12.5 if wide else 7.5, 1.3 + 3.9 * len(boxes)), dpi=120, layout="constrained")
-        axes = picture.subplots(len(boxes), 2 if wide else 1, squeeze=False, width_ratios=[1, 1.25] if wide else None)
+        figure = Figure(
+            figsize=(12.5 if has_parallel_coordinates else 7.5, 1.3 + 3.9 * len(boxes)), dpi=120, layout="constrained"
+        )
+        axes = figure.subplots(
+            len(boxes),
+            2 if has_parallel_coordinates else 1,
+            squeeze=False,
+            width_ratios=[1, 1.25] if has_parallel_coordinates else None,
+        )
         for row, box in zip(axes, boxes, strict=True):
             _draw_scatter(row[0], box)
-            if wide:
+            if has_parallel_coordinates:
                 _draw_parallel_coordinates(row[1], box)
         used = [s for s in reversed(SEVERITY) if any(cell.status is s for box in boxes for cell in box.cells)]
         handles = [
@@ -54,11 +61,13 @@ def draw_box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
             for s in used
         ]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
-        message = " (partial: interrupted)" if any(box.interrupted for box in boxes) else ""
-        head = format_figure_title(f"{title}: verdicts in the box{message}", 125 if wide else 75)
-        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
-        picture.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
-    return picture
+        title_suffix = " (partial: interrupted)" if any(box.interrupted for box in boxes) else ""
+        figure_title = format_figure_title(
+            f"{title}: verdicts in the box{title_suffix}", 125 if has_parallel_coordinates else 75
+        )
+        figure.suptitle(figure_title, fontsize=12, fontweight="bold", x=0.012, ha="left")
+        figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
+    return figure
 
 
 def rank_ranges(box: VerdictBox) -> list[int]:
@@ -72,9 +81,9 @@ def rank_ranges(box: VerdictBox) -> list[int]:
         math.log10(max(cell.error.largest, 1e-16)) if cell.error.largest == cell.error.largest else math.nan
         for cell in box.cells
     ]
-    judged = np.array([cell.status is not Status.MISSING for cell in box.cells])
-    response = np.array(verdicts if len(set(np.array(verdicts)[judged])) > 1 else errors, dtype=np.float64)
-    is_used = judged & np.isfinite(response)
+    is_judged = np.array([cell.status is not Status.MISSING for cell in box.cells])
+    response = np.array(verdicts if len(set(np.array(verdicts)[is_judged])) > 1 else errors, dtype=np.float64)
+    is_used = is_judged & np.isfinite(response)
     scores = [
         _compute_abs_correlation(np.log([point[range_.name] for point in box.points])[is_used], response[is_used])
         for range_ in box.ranges
@@ -116,21 +125,21 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
     For a box of one range the vertical axis is the largest error.
     """
     order = rank_ranges(box)
-    across = box.ranges[order[0]]
-    up = box.ranges[order[1]] if len(order) > 1 else None
+    x_range = box.ranges[order[0]]
+    y_range = box.ranges[order[1]] if len(order) > 1 else None
     for z, k in enumerate(_sort_by_severity(box)):
         error = max(box.cells[k].error.largest, 1e-16)  # NaN stays NaN, and the point is not drawn
         ax.scatter(
-            [box.points[k][across.name]],
-            [box.points[k][up.name] if up else error],
+            [box.points[k][x_range.name]],
+            [box.points[k][y_range.name] if y_range else error],
             zorder=3 + z / 1e4,
             **_select_marker_style(box, k),
         )
     ax.set(
         xscale="log",
         yscale="log",
-        xlabel=_format_range_label(across),
-        ylabel=_format_range_label(up) if up else "largest error",
+        xlabel=_format_range_label(x_range),
+        ylabel=_format_range_label(y_range) if y_range else "largest error",
     )
     ax.set_title(
         f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} per point\n"

@@ -142,11 +142,13 @@ def _format_number_table(claims: list[list[Row]], claim_names: _ClaimNames) -> s
     computed = (f"computed, {claim_names.get_title(name)}" if name else "computed" for name in ensembles)
     head = ["", "figure", "number", "printed", *computed, "deviation", "note"]
     footnote = ["computed: median (quartiles); deviation: of the medians, relative to the printed value"]
-    every = (
+    rows_of_cells = (
         _format_number_cells(rows, ensembles, claim_names, *_choose_unit(_select_claims_of_same_measure(claims, rows)))
         for rows in claims
     )
-    return _format_table_without_empty_columns(head, every) + build_paragraphs(footnote * bool(claims), "g-quiet")
+    return _format_table_without_empty_columns(head, rows_of_cells) + build_paragraphs(
+        footnote * bool(claims), "g-quiet"
+    )
 
 
 def _select_claims_of_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list[list[Row]]:
@@ -235,9 +237,9 @@ def _append_unit(value: float, unit: str) -> str:
 
 def _format_table_without_empty_columns(head: list[str], rows: Iterable[list[str]]) -> str:
     """Return an HTML table without the columns that have no text in any row; a column without a head stays."""
-    every = list(rows)
-    kept = [k for k, name in enumerate(head) if not name or any(row[k] for row in every)]
-    return build_table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
+    row_list = list(rows)
+    filled_columns = [k for k, name in enumerate(head) if not name or any(row[k] for row in row_list)]
+    return build_table([head[k] for k in filled_columns], ([row[k] for k in filled_columns] for row in row_list), True)
 
 
 def _format_trend_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
@@ -263,8 +265,8 @@ def _format_trend_cells(rows: list[Row], claim_names: _ClaimNames) -> list[str]:
     each.
     """
     first = rows[0]
-    each = ", ".join(f"{claim_names.get_title(row['ensemble'])} {row['alone']}" for row in rows)
-    verdict = str(first["verdict"]) if first["agreed"] else f"ensembles disagree: {each}"
+    verdicts_text = ", ".join(f"{claim_names.get_title(row['ensemble'])} {row['alone']}" for row in rows)
+    verdict = str(first["verdict"]) if first["agreed"] else f"ensembles disagree: {verdicts_text}"
     odds = (
         _join_distinct(map(_format_probability_cell, rows)),
         _join_distinct(_format_probability(row["chance"]) for row in rows),
@@ -280,9 +282,9 @@ def _format_probability_cell(row: Row) -> str:
     return f"{message} ({_format_probability(row['low'])} … {_format_probability(row['high'])})"
 
 
-def _format_probability(value: Any) -> str:
+def _format_probability(probability: Any) -> str:
     """Return a probability as text with two digits; "–" for None or NaN."""
-    return "–" if _is_missing(value) else f"{value:.2g}"
+    return "–" if _is_missing(probability) else f"{probability:.2g}"
 
 
 def _join_distinct(values: Iterable[str]) -> str:

@@ -164,9 +164,11 @@ def _build_boundary_table(verdict_map: VerdictMap) -> Table:
         largest = verdict_map.find_largest_stable_row(x)
         next_step = next((step for step in verdict_map.rows.values if not step <= largest), None)
         cell = verdict_map.get_cell(next_step, x) if next_step is not None else None
-        after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "none on the axis"
+        next_cell_text = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "none on the axis"
         table.add_row(
-            format_axis_value(verdict_map.columns, x), format_seconds(largest) if largest == largest else "none", after
+            format_axis_value(verdict_map.columns, x),
+            format_seconds(largest) if largest == largest else "none",
+            next_cell_text,
         )
     return table
 
@@ -179,10 +181,10 @@ def print_failures(console: Console, mechanism: str, verdicts: VerdictMap | Verd
     """
     laws = list_typed_law_files()
     for cell in cells:
-        specified = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
-        console.print(f"  {VERDICT_SIGNS[cell.status]} {specified}", markup=False, emoji=False)
-        again = format_run_command(mechanism, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
-        console.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
+        description = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
+        console.print(f"  {VERDICT_SIGNS[cell.status]} {description}", markup=False, emoji=False)
+        command = format_run_command(mechanism, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
+        console.print(f"    {command}", markup=False, emoji=False, soft_wrap=True)
 
 
 def describe_interruption(verdicts: VerdictMap | VerdictBox) -> str:
@@ -214,8 +216,8 @@ def format_run_command(
         repr(cell.setting.value),
     ]
     words += ["--formulation", "full"] if full else []
-    for name, message in cell.parameters.items():
-        words += ["--set", f"{name}={message}"]
+    for name, parameter_value in cell.parameters.items():
+        words += ["--set", f"{name}={parameter_value}"]
     for law in laws:
         words += ["--laws", law]
     return shlex.join([*words, "--t-end", repr(t_end)])
@@ -247,11 +249,11 @@ def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) 
             continue
         cells = [verdict_map.get_cell(step, x) for x in verdict_map.columns.values]
         counts = Counter(cell.status for cell in cells)
-        message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
-        best = [x for x in map(verdict_map.find_largest_stable_row, verdict_map.columns.values) if x == x]
-        shortest = format_seconds(min(best)) if len(best) == len(cells) else "none on the axis"
+        counts_text = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
+        stable_steps = [x for x in map(verdict_map.find_largest_stable_row, verdict_map.columns.values) if x == x]
+        shortest = format_seconds(min(stable_steps)) if len(stable_steps) == len(cells) else "none on the axis"
         lines.append(
-            f"step {format_seconds(step)}, {verdict_map.scene}: of {len(cells)} columns {message}; "
+            f"step {format_seconds(step)}, {verdict_map.scene}: of {len(cells)} columns {counts_text}; "
             f"largest step that is stable in all columns: {shortest}"
         )
     return lines

@@ -39,8 +39,8 @@ def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float |
     rows = max(len(verdict_map.rows.values) for verdict_map in maps)
     with matplotlib.rc_context(STYLE):
         width = max(6.5, len(maps) * (1.1 + 0.82 * columns))
-        picture = Figure(figsize=(width, 2.0 + 0.42 * rows), dpi=120, layout="constrained")
-        axes = picture.subplots(1, len(maps), squeeze=False)[0]
+        figure = Figure(figsize=(width, 2.0 + 0.42 * rows), dpi=120, layout="constrained")
+        axes = figure.subplots(1, len(maps), squeeze=False)[0]
         for ax, verdict_map in zip(axes, maps, strict=True):
             _draw_map(ax, verdict_map, marked_step)
         axes[0].set_ylabel(NAMES.get(maps[0].rows.name, maps[0].rows.name))
@@ -53,19 +53,19 @@ def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float |
                 Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {format_seconds(marked_step)}")
             )
         subject = "stable steps" if maps[0].rows.name == "step" else "verdicts on the runs"
-        part = " (partial: interrupted)" if any(verdict_map.interrupted for verdict_map in maps) else ""
-        head = format_figure_title(f"{title}: {subject}{part}", int(10 * width))
-        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
-        over = (
+        title_suffix = " (partial: interrupted)" if any(verdict_map.interrupted for verdict_map in maps) else ""
+        figure_title = format_figure_title(f"{title}: {subject}{title_suffix}", int(10 * width))
+        figure.suptitle(figure_title, fontsize=12, fontweight="bold", x=0.012, ha="left")
+        descriptions = (
             f"{verdict_map.scene}: checked over {format_seconds(verdict_map.t_long)}, "
             f"{describe_comparison(verdict_map)}"
             for verdict_map in maps
         )
-        message = "\n".join([explain_labels(maps), *over])
-        picture.legend(
-            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=message, title_fontsize=8
+        legend_title = "\n".join([explain_labels(maps), *descriptions])
+        figure.legend(
+            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=legend_title, title_fontsize=8
         )
-    return picture
+    return figure
 
 
 def _draw_map(ax: Axes, verdict_map: VerdictMap, marked_step: float | None) -> None:

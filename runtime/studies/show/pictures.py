@@ -66,8 +66,8 @@ def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_fi
             continue
         placeholder = page_figures.add_placeholder(f"{name_prefix}-{k}", draw_axes)
         parts.append(f"<figure>{placeholder}<figcaption>{escape_line(caption)}</figcaption></figure>")
-    more = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
-    return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
+    omission_html = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
+    return f"<div class='g-figures'>{''.join(parts)}</div>{omission_html}" if parts else ""
 
 
 def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:
@@ -76,19 +76,19 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
     MIN_FIGURES_FOR_PROCESSES or more figures are distributed over forked processes, on Linux and only if this process
     has no other threads.
     """
-    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MIN_FIGURES_FOR_PROCESSES
-    count = min(count_available_threads(), len(figures) // MIN_FIGURES_PER_PROCESS) if forks else 1
-    others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
-    drawn = [""] * len(figures)
+    may_fork = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MIN_FIGURES_FOR_PROCESSES
+    count = min(count_available_threads(), len(figures) // MIN_FIGURES_PER_PROCESS) if may_fork else 1
+    drawing_processes = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
+    svg_texts = [""] * len(figures)
     try:
-        drawn[::count] = [_draw_figure(*arguments) for arguments in figures[::count]]
-        for k, other in enumerate(others, 1):
-            drawn[k::count] = other.receive_figures()
+        svg_texts[::count] = [_draw_figure(*arguments) for arguments in figures[::count]]
+        for k, drawing_process in enumerate(drawing_processes, 1):
+            svg_texts[k::count] = drawing_process.receive_figures()
     finally:
-        for other in others:
-            other.process.kill()
-            other.process.join()
-    return drawn
+        for drawing_process in drawing_processes:
+            drawing_process.process.kill()
+            drawing_process.process.join()
+    return svg_texts
 
 
 class _DrawingProcess:

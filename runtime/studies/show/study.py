@@ -36,21 +36,21 @@ def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], as_json: b
     estimates: by the name of the part, "" for a file without parts. For a file with parts, a line has the totals.
     """
     if as_json:
-        each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.by_part.items()}
-        print_json({"parts": each} if plans.named else each[""])
+        json_by_part = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.by_part.items()}
+        print_json({"parts": json_by_part} if plans.named else json_by_part[""])
         return
     for name, plan in plans.by_part.items():
         if name:
             print(f"part {escape_invisible(name)}:")
         _print_estimate(plan, estimates[name])
     if plans.named:
-        size, spent = (
+        size, total_seconds = (
             sum(estimate.bytes for estimate in estimates.values()),
             sum(estimate.seconds for estimate in estimates.values()),
         )
         print(
             f"all parts: {format_count(plans.runs, 'run')}, about {format_size(size)} on disk, "
-            f"{_format_duration(spent)}"
+            f"{_format_duration(total_seconds)}"
         )
 
 
@@ -86,10 +86,10 @@ def report_studies(plans: Plans, study: Study, as_json: bool) -> None:
     """
     parts = study.parts or {"": study}
     if as_json:
-        each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.by_part.items()}
-        whole = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": each}
+        json_by_part = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.by_part.items()}
+        study_json = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": json_by_part}
         claims = read_claims_json(study.folder)
-        print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
+        print_json((study_json if plans.named else json_by_part[""]) | ({} if claims is None else {"claims": claims}))
         return
     for name, plan in plans.by_part.items():
         if name:
@@ -119,11 +119,11 @@ def _print_study(plan: Plan, study: Study) -> None:
 
     At most MAX_FAILURE_KINDS reasons of failures are printed, each with the full message of its first run.
     """
-    spread = {name: (unit, row) for name, unit, row in _iterate_measure_spreads(plan, study)}
+    spreads = {name: (unit, row) for name, unit, row in _iterate_measure_spreads(plan, study)}
     print(describe_runs(plan, study.runs))
-    if spread:
+    if spreads:
         table = make_rich_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
-        for name, (unit, row) in spread.items():
+        for name, (unit, row) in spreads.items():
             numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
             table.add_row(escape_invisible(name), *numbers, unit, str(row["nan"]))
         make_console().print(table)
@@ -134,8 +134,8 @@ def _print_study(plan: Plan, study: Study) -> None:
                 f"  {count} × {escape_invisible(kind)}"
                 + f"\n    the first: {escape_invisible(message)}" * bool(message)
             )
-        if (more := len(study.failures) - MAX_FAILURE_KINDS) > 0:
-            print(f"  and {more} other reasons")
+        if (n_omitted := len(study.failures) - MAX_FAILURE_KINDS) > 0:
+            print(f"  and {n_omitted} other reasons")
     for note in study.notes:
         print(f"note: {escape_invisible(note)}")
     print(f"wrote {format_path(Path(study.folder) / DATASET)}")
@@ -180,9 +180,9 @@ def _iterate_measure_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, st
         yield name, plan.units[name], row | {"nan": int(values.size - finite_values.size)}
 
 
-def _format_duration(value: float) -> str:
+def _format_duration(seconds: float) -> str:
     """Return a duration (s) as text, in days, h or min from twice that unit on, else as `format_seconds`: "3.5 h"."""
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
-        if value >= 2 * factor:
-            return f"{value / factor:.3g} {unit}"
-    return format_seconds(value)
+        if seconds >= 2 * factor:
+            return f"{seconds / factor:.3g} {unit}"
+    return format_seconds(seconds)

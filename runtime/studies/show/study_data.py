@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
 Coords: TypeAlias = Mapping[str, Any]
-SAMPLES, OWN_TIMES = ("time", "sample"), "t"
+SAMPLES, RUN_TIMES = ("time", "sample"), "t"
 MAX_WRITTEN_TICKS = 8  # values at an axis that are written as in the file
 MAX_ZIP_TEXT_LENGTH = 40  # characters of the values at an index of a zip
 MIN_COLUMNS_FOR_CHANGES = 4  # with so many parameters of a zip, only differences are displayed
@@ -49,7 +49,7 @@ class StudyData:
         return tuple(
             str(name)
             for name, variable in self.dataset.data_vars.items()
-            if variable.dims and variable.dims[-1] in SAMPLES and name != OWN_TIMES
+            if variable.dims and variable.dims[-1] in SAMPLES and name != RUN_TIMES
         )
 
     def get_unit(self, name: str) -> str:
@@ -82,16 +82,18 @@ class StudyData:
         if "place" not in numbers:  # no numbers, or a folder of an earlier version
             return []
         claims_of_measure = numbers[(numbers["measure"] == name) & numbers["printed"].notna()].drop_duplicates("claim")
-        variable, selected, positions = self.dataset[name], dict[str, int](), self.describe_axis(axis_name)[0]
+        variable, index_by_dimension, positions = self.dataset[name], dict[str, int](), self.describe_axis(axis_name)[0]
         for key, value in (coordinates or {}).items():
             dimension = self.find_dimension(variable, key)
-            selected[dimension] = self.find_nearest_index(key, value)
-        each = [
+            index_by_dimension[dimension] = self.find_nearest_index(key, value)
+        cells_and_values = [
             (json.loads(cell_text), float(value))
             for cell_text, value in zip(claims_of_measure["place"], claims_of_measure["printed"], strict=True)
         ]
         pooled = {
-            dim for dim, n in variable.sizes.items() if n > 1 and dim not in (axis_dimension, line_dimension, *selected)
+            dim
+            for dim, n in variable.sizes.items()
+            if n > 1 and dim not in (axis_dimension, line_dimension, *index_by_dimension)
         }
         return [
             (
@@ -99,10 +101,10 @@ class StudyData:
                 value,
                 -1 if line_dimension is None else cell.get(line_dimension, -1),
             )
-            for cell, value in each
+            for cell, value in cells_and_values
             if axis_dimension in cell
             and not pooled & {*cell}
-            and all(cell.get(dim, k) == k for dim, k in selected.items())
+            and all(cell.get(dim, k) == k for dim, k in index_by_dimension.items())
         ]
 
     def select_series(self, name: str, coordinates: Coords | None = None) -> tuple[Any, Any]:
@@ -114,9 +116,9 @@ class StudyData:
         if check_text(name, "a series", "the name of a stored series") not in self.stored_series:
             raise make_missing_name_error(f"the study stored no series {name!r}", name, self.stored_series)
         values = self._select_runs(self.dataset[name], coordinates)
-        if OWN_TIMES not in self.dataset:
+        if RUN_TIMES not in self.dataset:
             return self.dataset["time"].values, values
-        t = self._select_runs(self.dataset[OWN_TIMES], coordinates).values
+        t = self._select_runs(self.dataset[RUN_TIMES], coordinates).values
         rows = t.reshape(-1, t.shape[-1])
         rows = rows[np.isfinite(rows[:, 0])]
         if len(rows) and have_equal_times(rows):
@@ -155,7 +157,7 @@ class StudyData:
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            words = [str(one) for one in values]
+            words = [str(coordinate_value) for coordinate_value in values]
             if not isinstance(value, str) or value not in words:
                 raise make_missing_name_error(f"{name} has no {shorten_value(value)}", str(value), tuple(words))
             return words.index(value)
@@ -287,13 +289,13 @@ class StudyData:
                     tuple(self.get_written_values(str(name)) or map(self.get_title, coordinate.values)),
                     self.get_title(name),
                 )
-        whole = [", ".join(row) for row in zip(*columns, strict=True)]
-        for words, most in (
-            (whole, MAX_ZIP_TEXT_LENGTH if len(columns) < MIN_COLUMNS_FOR_CHANGES else 0),
+        full_texts = [", ".join(row) for row in zip(*columns, strict=True)]
+        for texts, max_length in (
+            (full_texts, MAX_ZIP_TEXT_LENGTH if len(columns) < MIN_COLUMNS_FOR_CHANGES else 0),
             (describe_changes(columns), MAX_CHANGES_LENGTH),
         ):
-            if words and max(map(len, words)) <= most and len(set(words)) == len(words):
-                return words
+            if texts and max(map(len, texts)) <= max_length and len(set(texts)) == len(texts):
+                return texts
         return None
 
     def describe_cell(self, indices: Mapping[str, int]) -> str:
@@ -335,20 +337,20 @@ class StudyData:
         series. min_time (s): earlier crossings are left out. coordinates: {name: value}; None means all runs.
         """
         t, section_series = self.select_series(section, coordinates)
-        others = [self.select_series(name, coordinates)[1].values for name in names]
+        other_arrays = [self.select_series(name, coordinates)[1].values for name in names]
         level, min_time, is_falling = (
             check_number(level, "level"),
             check_number(min_time, "after"),
             check_flag(is_falling, "falling"),
         )
         times, sections = np.broadcast_to(t, section_series.shape), []
-        for where in np.ndindex(section_series.shape[:-1]):
-            values = [series[where] for series in others]
+        for run_index in np.ndindex(section_series.shape[:-1]):
+            values = [series[run_index] for series in other_arrays]
             sections.append(
                 (
-                    where,
+                    run_index,
                     find_values_at_crossings(
-                        times[where], section_series.values[where], values, level, is_falling, min_time
+                        times[run_index], section_series.values[run_index], values, level, is_falling, min_time
                     ),
                 )
             )

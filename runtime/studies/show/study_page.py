@@ -73,9 +73,9 @@ def _iterate_sections(study: Study, parts: dict[str, StudyData], page_figures: P
         )
 
 
-def _format_part_heading(data: StudyData, name: str) -> str:
+def _format_part_heading(study_data: StudyData, name: str) -> str:
     """Return the heading of a part: "Part" and the title of its name."""
-    return f"Part {data.get_title(name)}"
+    return f"Part {study_data.get_title(name)}"
 
 
 def _list_chapters(sections: list[Section], parts: dict[str, StudyData]) -> list[str]:
@@ -93,26 +93,29 @@ def _read_claim_totals(study: Study) -> list[str]:
 
 
 def iterate_part_sections(
-    data: StudyData, page_figures: PageFigures, figure_prefix: str = "study"
+    study_data: StudyData, page_figures: PageFigures, figure_prefix: str = "study"
 ) -> Iterator[Section]:
     """Yield heading and HTML of each section of a part: varied quantities, failures, notes, measures, figures.
 
     figure_prefix: prefix of the figures' names. page_figures: receives the figures. Without matplotlib a line on its
     installation replaces the figures and the section of series.
     """
-    study = data.study
-    yield "Varied quantities", build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
-    failed = ((str(count), kind, message) for kind, count, message in data.iterate_failures())
-    yield "Failed runs", build_table(("runs", "reason", "first failed run"), failed, True)
+    study = study_data.study
+    yield (
+        "Varied quantities",
+        build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(study_data), True),
+    )
+    failure_rows = ((str(count), kind, message) for kind, count, message in study_data.iterate_failures())
+    yield "Failed runs", build_table(("runs", "reason", "first failed run"), failure_rows, True)
     yield "Notes", build_paragraphs(study.notes)
-    yield "Measures", _format_measure_table(data)
+    yield "Measures", _format_measure_table(study_data)
     try:
         import gudgeon.studies.show.study_plots  # noqa: F401 (without matplotlib its error names the package)
     except GudgeonError as error:
         yield "Figures", build_paragraphs([str(error)])
         return
-    yield "Figures", format_gallery(_iterate_measure_figures(data), f"{figure_prefix}-measure", page_figures)
-    yield "Series", format_gallery(_iterate_series_figures(data), f"{figure_prefix}-series", page_figures)
+    yield "Figures", format_gallery(_iterate_measure_figures(study_data), f"{figure_prefix}-measure", page_figures)
+    yield "Series", format_gallery(_iterate_series_figures(study_data), f"{figure_prefix}-series", page_figures)
 
 
 def _describe_study(parts: dict[str, StudyData]) -> str:
@@ -125,78 +128,92 @@ def _describe_study(parts: dict[str, StudyData]) -> str:
     return f"{counts} · mechanism {attributes['mechanism']} · {versions}"
 
 
-def _describe_counts(data: StudyData) -> str:
+def _describe_counts(study_data: StudyData) -> str:
     """Return one line on a part: "72 runs (scene 2 × c 3 × start 12), none failed"."""
-    study = data.study
-    sizes = " × ".join(f"{data.get_title(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
+    study = study_data.study
+    sizes = " × ".join(
+        f"{study_data.get_title(name)} {size}" for name, size in study_data.dataset["t_last"].sizes.items()
+    )
     failed = f", {study.failed} failed" if study.failed else ", none failed"
     return f"{format_count(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
 
 
-def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
+def _iterate_coordinate_rows(study_data: StudyData) -> Iterator[tuple[str, ...]]:
     """Yield a table row for each coordinate of the dataset: title, other dimensions, values, unit, meaning.
 
     Sample times are left out. Values are written as in the study file if possible. Of more than MAX_SHOWN_VALUES
     numbers, the row has the smallest, the largest and their count.
     """
-    for name, coordinate in data.dataset.coords.items():
+    for name, coordinate in study_data.dataset.coords.items():
         if name in ("time", "sample"):
             continue
-        over = ", ".join(map(data.get_title, coordinate.dims)) if coordinate.dims != (name,) else ""
-        unit, message = str(coordinate.attrs.get("units", "")), str(coordinate.attrs.get("long_name", ""))
+        dimensions_text = ", ".join(map(study_data.get_title, coordinate.dims)) if coordinate.dims != (name,) else ""
+        unit, meaning = str(coordinate.attrs.get("units", "")), str(coordinate.attrs.get("long_name", ""))
         values = np.ravel(coordinate.values)
         if values.dtype.kind in "OU":
-            yield data.get_title(name), over, _list_values([data.get_title(value) for value in values]), "", message
+            yield (
+                study_data.get_title(name),
+                dimensions_text,
+                _list_values([study_data.get_title(value) for value in values]),
+                "",
+                meaning,
+            )
             continue
-        if written := data.get_written_values(str(name)):
-            yield data.get_title(name), over, _list_values(list(written)), "", message
+        if written := study_data.get_written_values(str(name)):
+            yield study_data.get_title(name), dimensions_text, _list_values(list(written)), "", meaning
             continue
         factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
         is_short = len(values) <= MAX_SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         shown_values = values if is_short or not values.size else np.array([values.min(), values.max()])
-        words = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
-        listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} values"
-        yield data.get_title(name), over, listed, unit_text, message
+        value_texts = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
+        values_text = ", ".join(value_texts) if is_short else f"{' … '.join(value_texts)}, {len(values)} values"
+        yield study_data.get_title(name), dimensions_text, values_text, unit_text, meaning
 
 
-def _list_values(words: list[str]) -> str:
+def _list_values(value_texts: list[str]) -> str:
     """Return up to MAX_SHOWN_VALUES texts joined by commas; of more the first, the last and their count."""
-    return ", ".join(words) if len(words) <= MAX_SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} values"
+    return (
+        ", ".join(value_texts)
+        if len(value_texts) <= MAX_SHOWN_VALUES
+        else f"{value_texts[0]} … {value_texts[-1]}, {len(value_texts)} values"
+    )
 
 
-def _format_measure_table(data: StudyData) -> str:
+def _format_measure_table(study_data: StudyData) -> str:
     """Return the HTML table of the measures of a part, with a footnote; "" without measures.
 
     There is a row for each combination of coordinates, and a column for each measure. A cell has the median and
     quartiles of the measure over POOLED_DIMENSIONS (starts, draws, ensembles), or the value of the only run. Rows
     beyond MAX_ROWS are omitted, and the footnote has their number.
     """
-    names, rows, omitted = data.study.measures, dict[tuple[str, ...], list[str]](), 0
+    names, rows, omitted = study_data.study.measures, dict[tuple[str, ...], list[str]](), 0
     if not names:
         return ""
     dims, units, has_spread = [], [], False
     for name in names:
-        shape = data.dataset[name]
-        dims = [str(dim) for dim in shape.dims if dim not in POOLED_DIMENSIONS]
-        has_spread = any(dim in POOLED_DIMENSIONS for dim in shape.dims)
+        variable = study_data.dataset[name]
+        dims = [str(dim) for dim in variable.dims if dim not in POOLED_DIMENSIONS]
+        has_spread = any(dim in POOLED_DIMENSIONS for dim in variable.dims)
         factor, unit = choose_plot_unit(
-            float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.get_unit(name)
+            float(np.nanmax(np.abs(np.nan_to_num(variable.values)), initial=0.0)), study_data.get_unit(name)
         )
         units.append(unit)
-        for coordinates, values in data.iterate_spreads(name):
+        for coordinates, values in study_data.iterate_spreads(name):
             key = tuple(coordinates.values())
             if key not in rows and len(rows) >= MAX_ROWS:
                 omitted += name == names[0]
                 continue
             rows.setdefault(key, []).append(_format_spread(values * factor, has_spread))
-    head = [data.format_value_labels(dim)[1] for dim in dims]
-    head += [format_label(data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
-    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in POOLED_DIMENSIONS]
-    message = [
-        f"median (quartiles) over {', '.join(over)}; n: number of runs with a value, if some have none"
+    column_names = [study_data.format_value_labels(dim)[1] for dim in dims]
+    column_names += [format_label(study_data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
+    pooled_titles = [study_data.get_title(dim) for dim in study_data.dataset[names[0]].dims if dim in POOLED_DIMENSIONS]
+    footnotes = [
+        f"median (quartiles) over {', '.join(pooled_titles)}; n: number of runs with a value, if some have none"
     ] * has_spread
-    message += [f"{omitted} further rows are in the dataset"] * bool(omitted)
-    return build_table(head, ([*key, *cells] for key, cells in rows.items())) + build_paragraphs(message, "g-quiet")
+    footnotes += [f"{omitted} further rows are in the dataset"] * bool(omitted)
+    return build_table(column_names, ([*key, *cells] for key, cells in rows.items())) + build_paragraphs(
+        footnotes, "g-quiet"
+    )
 
 
 def _format_spread(values: Any, has_spread: bool) -> str:
@@ -215,7 +232,7 @@ def _format_spread(values: Any, has_spread: bool) -> str:
     return f"{middle:.4g} ({q1:.4g} … {q3:.4g}){count_text}"
 
 
-def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
+def _iterate_measure_figures(study_data: StudyData) -> Iterator[CaptionedFigure]:
     """Yield caption and drawing function of each measure over its axis dimension, and of heat maps over its first two.
 
     Measures without dimensions or finite values are left out. Heat maps are drawn for each scene, over dimensions other
@@ -223,34 +240,38 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
     """
     from gudgeon.studies.show.study_plots import StudyPlot
 
-    plot = StudyPlot(data.study)
-    for name in data.study.measures:
-        variable = data.dataset[name]
+    plot = StudyPlot(study_data.study)
+    for name in study_data.study.measures:
+        variable = study_data.dataset[name]
         if not variable.dims or not np.isfinite(variable.values).any():
             continue
         yield (
-            f"{data.get_title(name)}: {_describe_pooled_runs(data, variable)}",
+            f"{study_data.get_title(name)}: {_describe_pooled_runs(study_data, variable)}",
             partial(plot.measure, name, published=True),
         )
         varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in POOLED_DIMENSIONS]
         if len(varied) < 2:
             continue
-        for scene in [str(dim) for dim in data.dataset["scene"].values] if "scene" in variable.dims else [""]:
+        for scene in [str(dim) for dim in study_data.dataset["scene"].values] if "scene" in variable.dims else [""]:
             coordinates = {"scene": scene} if scene else {}
-            if not np.nan_to_num(data.select_measure(name, coordinates).values).any():  # all values are NaN or 0
+            if not np.nan_to_num(study_data.select_measure(name, coordinates).values).any():  # all values are NaN or 0
                 continue
-            message = ", ".join(filter(None, (f"{data.get_title(name)}: median", data.get_title(scene))))
-            yield message, partial(plot.heat_map, name, *varied[:2], at=coordinates)
+            caption = ", ".join(filter(None, (f"{study_data.get_title(name)}: median", study_data.get_title(scene))))
+            yield caption, partial(plot.heat_map, name, *varied[:2], at=coordinates)
 
 
-def _describe_pooled_runs(data: StudyData, measure: Any) -> str:
+def _describe_pooled_runs(study_data: StudyData, measure: Any) -> str:
     """Return in words over which dimensions the figure of a measure has statistics; "of each run" for none."""
-    over = data.choose_axis_dimension(measure)
-    others = [str(dim) for dim in measure.dims if dim not in (over, data.choose_line_dimension(measure, over))]
-    return f"median, quartiles and extremes over {', '.join(map(data.get_title, others))}" if others else "of each run"
+    over = study_data.choose_axis_dimension(measure)
+    others = [str(dim) for dim in measure.dims if dim not in (over, study_data.choose_line_dimension(measure, over))]
+    return (
+        f"median, quartiles and extremes over {', '.join(map(study_data.get_title, others))}"
+        if others
+        else "of each run"
+    )
 
 
-def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
+def _iterate_series_figures(study_data: StudyData) -> Iterator[CaptionedFigure]:
     """Yield caption and drawing function of the bands (median, quartiles, extremes) of each stored series over time.
 
     If runs have different sample times, the bands are over fractions of each run's duration. Series that are empty or
@@ -258,19 +279,19 @@ def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
     """
     from gudgeon.studies.show.study_plots import StudyPlot
 
-    plot = StudyPlot(data.study)
-    for name in data.stored_series:
-        variable = data.dataset[name]
+    plot = StudyPlot(study_data.study)
+    for name in study_data.stored_series:
+        variable = study_data.dataset[name]
         if variable.size > MAX_SERIES_VALUES or variable.shape[-1] > MAX_SERIES_SAMPLES or not variable.size:
             continue
-        t, _ = data.select_series(name)
+        t, _ = study_data.select_series(name)
         runs = variable.size // variable.shape[-1]
         line_dimension = "scene" if "scene" in variable.dims else None
         over_fractions = t.ndim > 1
         if over_fractions and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
-        message = f"{data.get_title(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
+        caption = f"{study_data.get_title(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
         yield (
-            message + ", over fractions of the run" * over_fractions,
+            caption + ", over fractions of the run" * over_fractions,
             partial(plot.bands, name, line_dimension, share=over_fractions),
         )

@@ -171,11 +171,11 @@ class StudyPlot:
             factor, unit = choose_plot_unit(
                 max(find_largest_magnitude(rows) for _, rows in spectra), values.attrs.get("units", "")
             )
-            message = [word for word, _ in self.data.split_runs(values, by)]
-            for word, (f, rows), colour in zip(message, spectra, choose_colours(len(message)), strict=True):
-                draw_band(ax, f, compute_run_quantiles(rows) * factor, colour, word, 0.0)
+            labels = [label for label, _ in self.data.split_runs(values, by)]
+            for label, (f, rows), colour in zip(labels, spectra, choose_colours(len(labels)), strict=True):
+                draw_band(ax, f, compute_run_quantiles(rows) * factor, colour, label, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=format_label(self.data.get_title(series), unit))
-            self._set_title_and_legend(ax, at, len(message) > 1)
+            self._set_title_and_legend(ax, at, len(labels) > 1)
         return ax
 
     def low_pass(
@@ -232,10 +232,12 @@ class StudyPlot:
             factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
             x = np.broadcast_to(x, values.shape)
             parts = self.data.split_runs(values, by)
-            for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
+            for k, ((part_label, part_values), colour) in enumerate(
+                zip(parts, choose_colours(len(parts)), strict=True)
+            ):
                 part_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
                 rows = zip(part_x.reshape(-1, x.shape[-1]), part_values.values.reshape(-1, x.shape[-1]), strict=True)
-                label = select_legend_label(part_values.values, message)
+                label = select_legend_label(part_values.values, part_label)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=label if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
@@ -266,11 +268,11 @@ class StudyPlot:
         )
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.2, 4.4) if ax is None else check_axes(ax)
-            (of_x, x_unit), (of_y, y_unit) = (
+            (x_factor, x_unit), (y_factor, y_unit) = (
                 choose_plot_unit(find_largest_magnitude(values), self.data.get_unit(name))
                 for name, values in ((x, xs), (y, ys))
             )
-            ax.plot(xs * of_x, ys * of_y, ".", color=COLOURS[1], ms=3.0)
+            ax.plot(xs * x_factor, ys * y_factor, ".", color=COLOURS[1], ms=3.0)
             ax.set(
                 xlabel=format_label(self.data.get_title(x), x_unit), ylabel=format_label(self.data.get_title(y), y_unit)
             )
@@ -320,23 +322,25 @@ class StudyPlot:
         x, y = self.data.find_dimension(values, x), self.data.find_dimension(values, y)
         if x == y:
             raise BadValueError(f"heat_map: {x} is both x and y")
-        middle = compute_run_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
+        medians = compute_run_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.8, 4.2) if ax is None else check_axes(ax)
-            factor, unit = choose_plot_unit(find_largest_magnitude(middle), values.attrs.get("units", ""))
-            image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
-            (words, x_label), (others, y_label) = (self.data.format_value_labels(name_of) for name_of in (x, y))
-            x_ticks, y_ticks = (
-                select_tick_indices(len(words), MAX_X_TICKS),
-                select_tick_indices(len(others), MAX_Y_TICKS),
+            factor, unit = choose_plot_unit(find_largest_magnitude(medians), values.attrs.get("units", ""))
+            image = ax.imshow(medians * factor, origin="lower", aspect="auto", cmap="viridis")
+            (x_labels, x_label), (y_labels, y_label) = (
+                self.data.format_value_labels(dimension) for dimension in (x, y)
             )
-            set_ticks(ax, x_ticks, [words[k] for k in x_ticks])
-            ax.set_yticks(y_ticks, [format_figure_title(others[k], MAX_TICK_LINE_LENGTH) for k in y_ticks])
+            x_ticks, y_ticks = (
+                select_tick_indices(len(x_labels), MAX_X_TICKS),
+                select_tick_indices(len(y_labels), MAX_Y_TICKS),
+            )
+            set_ticks(ax, x_ticks, [x_labels[k] for k in x_ticks])
+            ax.set_yticks(y_ticks, [format_figure_title(y_labels[k], MAX_TICK_LINE_LENGTH) for k in y_ticks])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=format_label(self.data.get_title(name), unit))
-            if middle.size <= MAX_LABELLED_CELLS:
-                write_cell_values(ax, middle * factor, image)
+            if medians.size <= MAX_LABELLED_CELLS:
+                write_cell_values(ax, medians * factor, image)
             self._set_title_and_legend(ax, at, False)
         return ax
 

@@ -41,14 +41,14 @@ def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
     if not len(fractions):
         return None
     values = np.full((len(fractions_of_runs), len(fractions)), np.nan)
-    for out, x, row, run_fractions in zip(
+    for resampled_row, x, row, run_fractions in zip(
         values, series.values.reshape(times.shape), times, fractions_of_runs, strict=True
     ):
         y = x[np.isfinite(row)]
         if len(run_fractions) == len(fractions) and np.allclose(run_fractions, fractions, rtol=0.0, atol=FRACTION_TOL):
-            out[:] = y
-        elif len(run_fractions) and (good := np.isfinite(y)).any():
-            out[:] = np.interp(fractions, run_fractions[good], y[good], left=np.nan, right=np.nan)
+            resampled_row[:] = y
+        elif len(run_fractions) and (is_finite := np.isfinite(y)).any():
+            resampled_row[:] = np.interp(fractions, run_fractions[is_finite], y[is_finite], left=np.nan, right=np.nan)
     return fractions, series.isel({series.dims[-1]: slice(len(fractions))}).copy(
         data=values.reshape(*series.shape[:-1], len(fractions))
     )
@@ -80,7 +80,9 @@ def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -
     result is one frequency 0 with the amplitude NaN. Raises BadValueError for different sample times.
     """
     rows = [
-        (t[good], x[good]) for t, x in _iterate_runs(times, values) if (good := np.isfinite(t) & np.isfinite(x)).any()
+        (t[is_finite], x[is_finite])
+        for t, x in _iterate_runs(times, values)
+        if (is_finite := np.isfinite(t) & np.isfinite(x)).any()
     ]
     if not rows:
         return np.zeros(1), np.full((1, 1), np.nan)
@@ -89,8 +91,8 @@ def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -
         message = f"{format_one_line(name)}: the runs have different sample times, so they have no common frequencies"
         hint = "select runs with the same times (at=…), or name the dimension on which their times depend (by=…)"
         raise BadValueError(message, hint=hint)
-    each = [compute_spectrum(first, x, window) for _, x in rows]
-    return each[0][0], np.array([amplitudes for _, amplitudes in each])
+    spectra = [compute_spectrum(first, x, window) for _, x in rows]
+    return spectra[0][0], np.array([amplitudes for _, amplitudes in spectra])
 
 
 def filter_low_pass(t: Any, series: Any, cutoff: float, order: int, causal: bool) -> Any:

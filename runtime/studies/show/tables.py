@@ -69,7 +69,7 @@ def write_table_and_figure(
     Returns the written files, and the first OutputError or None instead of raising it: the caller raises it after
     printing, so that results are not lost with a full disk.
     """
-    written, failed = [], None
+    written_paths, first_error = [], None
 
     def save_png(path: Path) -> None:
         """Draw the figure and save it as PNG; matplotlib is imported here only."""
@@ -83,34 +83,34 @@ def write_table_and_figure(
     for path, write in steps:
         try:
             write(path)
-            written.append(path)
+            written_paths.append(path)
         except OutputError as error:
-            failed = failed or error
-    return written, failed
+            first_error = first_error or error
+    return written_paths, first_error
 
 
-def format_fraction(value: float) -> str:
+def format_fraction(fraction: float) -> str:
     """Return a fraction as text: 0.12 as "12 %", 0.003 as "0.30 %", 4e-7 as "4e-7"; "–" for NaN."""
-    if math.isnan(value):
+    if math.isnan(fraction):
         return "–"
-    if 1e-4 <= value < 100:
-        return f"{100 * value:.{0 if value >= 0.1 else 1 if value >= 0.01 else 2}f} %"
-    return f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
+    if 1e-4 <= fraction < 100:
+        return f"{100 * fraction:.{0 if fraction >= 0.1 else 1 if fraction >= 0.01 else 2}f} %"
+    return f"{fraction:.0e}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
 
 
-def format_rough_fraction(value: float) -> str:
+def format_rough_fraction(fraction: float) -> str:
     """Return a fraction as text for a cell of a map, as `format_fraction`, but "< 0.01 %" for values below 1e-4."""
-    return "< 0.01 %" if value < 1e-4 else format_fraction(value)
+    return "< 0.01 %" if fraction < 1e-4 else format_fraction(fraction)
 
 
-def format_seconds(value: float) -> str:
+def format_seconds(seconds: float) -> str:
     """Return a time (s) as text with three digits and a suitable unit, "10 µs" for 1e-5; "–" for NaN or infinity."""
     for factor, unit in ((1e9, "ns"), (1e6, "µs"), (1e3, "ms"), (1.0, "s")):
-        if abs(value) * factor < 999.5:
-            return f"{value * factor:.3g} {unit}"
-    return f"{value:.3g} s" if math.isfinite(value) else "–"
+        if abs(seconds) * factor < 999.5:
+            return f"{seconds * factor:.3g} {unit}"
+    return f"{seconds:.3g} s" if math.isfinite(seconds) else "–"
 
 
-def format_clearance(value: float) -> str:
+def format_clearance(clearance: float) -> str:
     """Return a radial clearance (m) as text in mm, as in drawings; "no play" for NaN."""
-    return "no play" if math.isnan(value) else f"{value * 1e3:.3g} mm"
+    return "no play" if math.isnan(clearance) else f"{clearance * 1e3:.3g} mm"

@@ -65,27 +65,28 @@ def load_subtracted_scene(job: Job, scene: str) -> Simulation:
     return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
 
-def find_passive_parameters(source: KernelSource) -> Array:
-    """Return a flag for each entry of the parameter vector p, (n_p,): whether it does not affect the motion.
+def find_ineffective_parameters(source: KernelSource) -> Array:
+    """Return a flag for each entry of the parameter vector p, (n_p,): whether it does not affect the motion or outputs.
 
     Such an entry is a named parameter that no expression of time, of the motion or of an output contains. Quantities
     that depend on it, such as lengths, are entries of p themselves, so their own flags are False.
     """
     trees = [json.loads(expression.tree) for expression in source.written] + list(source.outputs.values())
-    read = {
+    used_addresses = {
         f"parameters.{name.path.removeprefix('parameters.')}"
         for tree in trees
         for name in iterate_names(from_json(tree))
     }
-    is_unread = [
-        parameter.address.startswith("parameters.") and parameter.address not in read for parameter in source.slots
+    is_unused = [
+        parameter.address.startswith("parameters.") and parameter.address not in used_addresses
+        for parameter in source.slots
     ]
-    return np.array(is_unread + [False] * len(source.derived), dtype=bool)
+    return np.array(is_unused + [False] * len(source.derived), dtype=bool)
 
 
 @dataclass(frozen=True, eq=False)
-class RunKeys:
-    """Runs of another scene with keys by which equal runs are recognised (memoization)."""
+class RunInputs:
+    """Inputs of runs of another scene, with keys by which equal runs are recognised (memoization)."""
 
     columns: Mapping[str, Array]  # parameters of the other scene, (n,)
     full_p: Array  # (n, n_p)
@@ -140,12 +141,12 @@ def compute_subtracted_series(
     out, since the batch itself runs their scene.
     """
     series_by_scene: dict[str, dict[str, Array]] = {}
-    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
-    for scene in list_subtracted_scenes(expected, batch.source.scene):
+    sample_measures = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
+    for scene in list_subtracted_scenes(sample_measures, batch.source.scene):
         simulation = load_subtracted_scene(job, scene)
         common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()
         names = dict.fromkeys(
-            str(measure.of) for measure in expected if measure.origin == scene and measure.of in common_names
+            str(measure.of) for measure in sample_measures if measure.origin == scene and measure.of in common_names
         )
         if names:
             series_by_scene[scene] = _compute_series_at_samples(
@@ -164,9 +165,9 @@ def _compute_series_at_samples(
     `failures`; runs that failed before are left out.
     """
     times = batch.kept["t"]
-    out = {name: np.full(times.shape, np.nan) for name in names}
+    series_by_name = {name: np.full(times.shape, np.nan) for name in names}
     valid_runs = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
-    run_keys = _build_run_keys(simulation, table, runs, [row[np.isfinite(row)] for row in times])
+    run_inputs = _build_run_inputs(simulation, table, runs, [row[np.isfinite(row)] for row in times])
     common_key = (
         job.mechanism,
         job.overrides,
@@ -176,13 +177,13 @@ def _compute_series_at_samples(
         job.run_settings.rtol,
         tuple(names),
     )
-    keys = [(common_key, run_keys.build_key(i)) for i in range(len(runs))]
+    keys = [(common_key, run_inputs.build_key(i)) for i in range(len(runs))]
     with _computing:  # a block in another thread may need the same series
         cached = {keys[i]: _recent.get(keys[i]) for i in valid_runs}
         missing = [i for i in {keys[i]: i for i in reversed(valid_runs)}.values() if cached[keys[i]] is None]
-        computed = _compute_kinematic_series(job, simulation, run_keys, sorted(missing), names)
+        computed = _compute_kinematic_series(job, simulation, run_inputs, sorted(missing), names)
         for i, series in (
-            computed | _simulate_series(job, simulation, run_keys, sorted({*missing} - {*computed}), names)
+            computed | _simulate_subtracted_series(job, simulation, run_inputs, sorted({*missing} - {*computed}), names)
         ).items():
             if isinstance(series, str):
                 for k in (k for k in valid_runs if keys[k] == keys[i]):
@@ -192,12 +193,12 @@ def _compute_series_at_samples(
                 _recent.put(keys[i], series)
     for i in valid_runs:
         for name, values in (cached[keys[i]] or {}).items():
-            out[name][i, np.isfinite(times[i])] = values
-    return out
+            series_by_name[name][i, np.isfinite(times[i])] = values
+    return series_by_name
 
 
-def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunKeys:
-    """Return what identifies these runs of a job as runs of another scene (`simulation`): equal keys, equal motions.
+def _build_run_inputs(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunInputs:
+    """Return the inputs of these runs of a job as runs of another scene (`simulation`); equal keys mean equal motions.
 
     runs: indices in the job. times: sample times, one array each. Parameters that the other scene lacks are left out,
     and those that do not affect the motion are 0 in the key. The step is None for a scene without degrees of freedom.
@@ -208,7 +209,7 @@ def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times:
     given, is_given = read_given_parameters_of_runs(source, rows)
     p, _, _ = prepare_values_of_runs(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
-    return RunKeys(columns, p, np.where(find_passive_parameters(source), 0.0, p), tuple(times), step)
+    return RunInputs(columns, p, np.where(find_ineffective_parameters(source), 0.0, p), tuple(times), step)
 
 
 def _to_python_value(value: Any) -> float | str:
@@ -217,7 +218,7 @@ def _to_python_value(value: Any) -> float | str:
 
 
 def _compute_kinematic_series(
-    job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], series_names: list[str]
+    job: Job, simulation: Simulation, run_inputs: RunInputs, runs: list[int], series_names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Return the series of kinematically driven runs by run, evaluated from the motion alone without a simulation.
 
@@ -238,7 +239,7 @@ def _compute_kinematic_series(
 
         The first sample time must be 0, else the result is None.
         """
-        t, p = run_keys.t[i], run_keys.full_p[i]
+        t, p = run_inputs.t[i], run_inputs.full_p[i]
         try:
             start = assemble_start(compiled, p)
             q, v = compute_motion_at(compiled, p, t, start.q, start.v)
@@ -262,8 +263,8 @@ def _compute_kinematic_series(
     return {i: series for i, series in series_by_run.items() if series is not None}
 
 
-def _simulate_series(
-    job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], names: list[str]
+def _simulate_subtracted_series(
+    job: Job, simulation: Simulation, run_inputs: RunInputs, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Simulate runs of another scene as one batch, and return by run the series, or the reason (a text) of a failure.
 
@@ -273,16 +274,16 @@ def _simulate_series(
     if not runs:
         return {}
     source, is_dynamic = simulation.source, bool(simulation.source.degrees_of_freedom)
-    t = [run_keys.t[i] for i in runs]
+    t = [run_inputs.t[i] for i in runs]
     has_common_times = all(np.array_equal(times, t[0]) for times in t)
     try:
         batch = simulation.simulate_many(
-            {name: [_to_python_value(values[i]) for i in runs] for name, values in run_keys.columns.items()}
+            {name: [_to_python_value(values[i]) for i in runs] for name, values in run_inputs.columns.items()}
             or [{}] * len(runs),
             output=t[0] if has_common_times else t,
             method=get_method_for_scene(source, job.run_settings.method),
             rtol=job.run_settings.rtol if is_dynamic else None,
-            step=None if run_keys.step is None else run_keys.step[runs],
+            step=None if run_inputs.step is None else run_inputs.step[runs],
             threads=job.threads,
             stop=False,
             keep=names,
@@ -291,8 +292,8 @@ def _simulate_series(
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        each = [_simulate_series(job, simulation, run_keys, [i], names) for i in runs]
-        return {i: series for series_by_run in each for i, series in series_by_run.items()}
+        series_by_single_run = [_simulate_subtracted_series(job, simulation, run_inputs, [i], names) for i in runs]
+        return {i: series for series_by_run in series_by_single_run for i, series in series_by_run.items()}
     if batch.interrupted:
         raise KeyboardInterrupt
     failed = {failure.run: str(failure.error) for failure in batch.failures}
