@@ -410,7 +410,8 @@ class Tangent:
         """Return the tangent vector z multiplied by the saltation matrix of a contact that begins or ends at t (s).
 
         `joint`: its index; `is_onset`: whether the contact begins; `approach_speed`: δ̇⁻ (m/s); `state_at_t`: (q, q̇)
-        and discrete states at t. At an onset, the component of δ̇⁻ is set; at an end, it becomes 0.
+        and discrete states at t. At an onset, the component of δ̇⁻ is set (formulas: head of this file), except if the
+        law's smallest approach speed holds; at an end, it becomes 0.
         """
         flow, size = self.flow, 2 * self.flow.m
         (y, q_dep), d = flow.reduce_state(t, state_at_t[0]), z[:size]

@@ -71,7 +71,10 @@ class RunSettings:
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Picklable description of runs of one scene: library, parameters and deviations of perturbed starts, (n,) each."""
+    """Task of a worker: the inputs of n runs of one scene, picklable.
+
+    columns: parameter values, (n,) each, by name. relative, absolute: deviations of perturbed parameters, (n,) each.
+    """
 
     mechanism: str
     scene: str

@@ -158,11 +158,11 @@ def compute_subtracted_series(
 def _compute_series_at_samples(
     job: Job, simulation: Simulation, table: RunTable, runs: Array, batch: Batch, names: list[str], failures: list[str]
 ) -> dict[str, Array]:
-    """Return the series `names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
+    """Return the series `names` of a subtracted scene at the samples of these runs, (n, N) each, NaN where missing.
 
-    Equal runs are computed once, and series are taken from a cache of the process if possible. Kinematically driven
-    scenes are evaluated from the motion alone, others, and those that fail, are simulated. Failures are entered in
-    `failures`; runs that failed before are left out.
+    runs: indices of the batch's runs in the job. Equal runs are computed once, and series are taken from a cache of the
+    process if possible. Kinematically driven scenes are evaluated from the motion alone, others, and those that fail,
+    are simulated. Failures are entered in `failures`; runs that failed before are left out.
     """
     times = batch.kept["t"]
     series_by_name = {name: np.full(times.shape, np.nan) for name in names}
@@ -266,8 +266,9 @@ def _compute_kinematic_series(
 def _simulate_subtracted_series(
     job: Job, simulation: Simulation, run_inputs: RunInputs, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Simulate runs of another scene as one batch, and return by run the series, or the reason (a text) of a failure.
+    """Simulate runs of a subtracted scene as one batch; return by run its series, or the reason (a text) of a failure.
 
+    run_inputs: parameters and sample times of all runs. runs: indices of those that are simulated.
     If the parameters of a run are invalid, each run is simulated alone to find it. Raises KeyboardInterrupt if Ctrl-C
     ended a run.
     """
