@@ -55,8 +55,9 @@ class ReusableRun(Runs):
         self._poll = CancellationPoll(self.compiled, self.compiled.lib.switch_library_if_ready)
         self.struct.is_stop_requested, self.struct.context, self.struct.poll_interval = self._poll.c_arguments
         self._begun_row, self._has_guessed_points = 0, any(x.count(".") > 1 for x in columns.source.start_guess)
-        self._tolerance_keys: list[bytes] = [b""] * N_ROWS
-        self._size, self._size_key, self._size_parameters = 0.0, b"none", find_size_parameters(columns.source)
+        self._tolerance_keys: list[bytes | None] = [None] * N_ROWS  # None: not computed
+        self._size, self._size_parameters = 0.0, find_size_parameters(columns.source)
+        self._size_key: bytes | None = None
         self._phase, self._done, self._checked, self._status = (
             self.arrays[name] for name in ("phase", "done", "checked", "status")
         )
@@ -75,7 +76,7 @@ class ReusableRun(Runs):
         key = self.columns.p[k].take(self.columns.length_indices).tobytes()
         if key == self._tolerance_keys[k]:
             return True
-        self._tolerance_keys[k] = b""
+        self._tolerance_keys[k] = None
         source, x, p = self.compiled.source, self.arrays, self.columns.p[k]
         size_key = p.take(self._size_parameters).tobytes()
         if size_key != self._size_key:

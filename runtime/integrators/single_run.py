@@ -60,7 +60,8 @@ class SingleRun(Runs):
         if compiled.source.clearances:
             self.allocate_envelope()
         self._problem: Problem | None = None
-        self._head, self._lengths = self.arrays.copy_head(), b""
+        self._head = self.arrays.copy_head()
+        self._lengths: bytes | None = None  # of the run whose tolerances the head contains
         self.begin_problem(problem)
 
     def begin_problem(self, problem: Problem) -> None:

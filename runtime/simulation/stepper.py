@@ -65,7 +65,8 @@ class Stepper:
         # for scenes that `simulate` runs: the current state, and the state from which the next run begins
         self._state: State | None = None
         self._start: State | None = None
-        self._x, self._x_key, self._t, self.ended, self._is_reset = np.zeros(len(setup.names)), b"", 0.0, False, False
+        self._x, self._t, self.ended, self._is_reset = np.zeros(len(setup.names)), 0.0, False, False
+        self._x_key: bytes | None = None  # of the inputs whose parameter values are set; None: none
         self._run = None
         if setup.needs_simulate:
             return
@@ -169,7 +170,7 @@ class Stepper:
                 self._set_inputs(x)
                 self._compiled.lib.gudgeon_phi(self._t, *self._phi_arguments)
                 if not self._fits_constraints(self._phi, self._run.arrays["size"].item(0)):
-                    self._x_key = b""
+                    self._x_key = None
                     check_resumed_state(self._compiled, self.final, self._setup.columns.p[0])
             if self._step_varies:
                 self._run.arrays["step"][0] = self._setup.evaluate_step(0, t - self._t)
@@ -208,7 +209,7 @@ class Stepper:
     def _set_inputs(self, x: Array) -> None:
         """Compute parameter values and error tolerances for inputs x (n_inputs,) in row 0. Raises InputError."""
         assert self._run
-        self._x_key = b""
+        self._x_key = None
         if not (self._setup.columns.compute_row(x, 0) and self._run.update_tolerances(0)):
             prepare_values(self._compiled, self._setup.get_parameters(x))  # raises the error
         self._x_key = x.tobytes()

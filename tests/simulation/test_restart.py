@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -28,3 +30,29 @@ def test_restart(name: str, scene: str, t_end: float, step: float | None, sample
             one, other = getattr(second, part), getattr(whole, part)[k:]
             np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-12)  # an end is one number beside the grid's
         assert first.work[-1] + second.work[-1] == pytest.approx(whole.work[-1], abs=1e-12)
+
+
+RAIL = """
+format: gudgeon/1
+name: rail
+bodies: {m: {mass: 1 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {guide: {translational: [ground.O, m.origin], axis: [1, 0], angle: 0}}
+forces: {spring: {force: m.origin, value: [-m.x * 4 N/m, 0]}}
+start: {set: {m.x: 1 m}, rates: {m.vx: 0}}
+"""
+
+
+def test_a_scene_without_lengths_continues_from_its_state(tmp_path: Path) -> None:
+    """A mass on a spring, x = cos 2t, by resumed runs, by steps without inputs, and by a prepared run."""
+    (tmp_path / "rail.yaml").write_text(RAIL, encoding="utf-8")
+    rail = gudgeon.load(tmp_path / "rail.yaml")
+    state, stepper = rail.simulate(0.1, output=1, rtol=1e-10).final, rail.stepper(series=["m.x"], rtol=1e-10)
+    stepper.reset()
+    for k in range(1, 8):
+        assert state.q[0] == pytest.approx(np.cos(0.2 * k), abs=1e-8)
+        assert stepper.step(0.1)[0] == pytest.approx(np.cos(0.2 * k), abs=1e-8)
+        state = rail.simulate(0.1 * (k + 1), output=1, start=state, rtol=1e-10).final
+    run = rail.simulate(0.8, output=8, rtol=1e-10)
+    assert rail.prepare(series=["m.x"], t_end=0.8, output=8, rtol=1e-10)(np.zeros(0))[0].tolist() == run["m.x"].tolist()
+    assert rail.prepare(["bodies.m.mass"], ["m.x"], 0.8, output=8, rtol=1e-10)([1.0])[0].tolist() == run["m.x"].tolist()
