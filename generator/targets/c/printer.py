@@ -45,8 +45,12 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         template = _TEMPLATES.get((type(self), structure))
         if template is None:
             names: dict[Key, Key] = {key: f"{{{k}}}" for k, key in enumerate(keys)}
-            template = _TEMPLATES[type(self), structure] = type(self)(Readable((), names))._print(expr)
+            template = _TEMPLATES[type(self), structure] = self.make_printer(Readable((), names))._print(expr)
         return template.format(*map(self.get_name, keys))
+
+    def make_printer(self, readable_lines: Readable) -> CPrinter:
+        """Return a printer of the same class for other names."""
+        return type(self)(readable_lines)
 
     def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""

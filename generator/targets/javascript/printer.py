@@ -78,6 +78,10 @@ class JavaScriptPrinter(CPrinter):
         super().__init__(readable_lines)
         self.members_read = members_read
 
+    def make_printer(self, readable_lines: Readable) -> JavaScriptPrinter:
+        """Return a printer for other names that adds to the same set."""
+        return JavaScriptPrinter(readable_lines, self.members_read)
+
     def print_place(self, place: Place) -> str:
         """Return the path of a place in JavaScript; the member of a parameter is added to `members_read`."""
         if place.is_parameter:
