@@ -203,11 +203,15 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
         return status;
     const double energy_before = compute_kinetic_energy(run, p);
     apply_drive_impulse(run, p);
-    if (compute_kinetic_energy(run, p) == energy_before)
-        return update_branches_at_current_state(run, switch_index, p);
+    if (compute_kinetic_energy(run, p) == energy_before) {
+        status = update_branches_at_current_state(run, switch_index, p);
+        return status ? status : correct_modes_after_jump(run, p);
+    }
     status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
         status = evaluate_run_rhs(run, t, run->y, p, run->dy, &run->rhs);
+    if (!status)
+        status = correct_modes_after_jump(run, p);
     return status ? status : record_crossed_events(run, NULL, p);
 }
 
@@ -232,6 +236,8 @@ static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
     status = update_branches_just_after(run, get_time_just_after(run->t), -1, p);
     if (!status)
         status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
+    if (!status)
+        status = correct_modes_after_jump(run, p);
     if (!status)
         status = update_contacts(run, -1, p);
     return status ? status : record_crossed_events(run, NULL, p);

@@ -8,6 +8,7 @@
  * elements hold its slip at zero.
  */
 #if N_FRICTIONS
+#define MAX_STICK_RESIDUAL (10.0 * MAX_STICK_SPEED) /* m/s: slip of a sticking element, from errors of the integration */
 #define SLIP_ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
 enum { MAX_MODE_PASSES = 8 + 4 * N_FRICTIONS };
 
@@ -136,9 +137,36 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /*
+ * Set the modes that contradict the slips in run->rhs: an element with a slip above max_slip (m/s) slips in its
+ * direction; others keep their mode. Return whether a mode changed.
+ */
+static int set_modes_by_slips(Integrator *run, double max_slip)
+{
+    int has_changed = 0;
+    for (int i = 0; i < N_FRICTIONS; i++) {
+        const double v = run->rhs.friction[i].v, direction = v > 0.0 ? 1.0 : -1.0;
+        if (!(fabs(v) > max_slip) || run->discrete.mode[i] == direction)
+            continue;
+        run->discrete.mode[i] = direction;
+        has_changed = 1;
+    }
+    return has_changed;
+}
+
+/*
+ * Correct the modes after a jump of velocities from the slips in run->rhs, and iterate all modes to a consistent set.
+ * The slip of a sticking element may differ from zero by MAX_STICK_RESIDUAL. If no mode contradicts its slip, nothing
+ * is evaluated. Return 0 or a status.
+ */
+static int correct_modes_after_jump(Integrator *run, const Parameters *p)
+{
+    return set_modes_by_slips(run, MAX_STICK_RESIDUAL) ? iterate_friction_modes(run, p) : 0;
+}
+
+/*
  * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick if |slip| <=
- * MAX_STICK_SPEED. If any was set, iterate all modes to a consistent set. Return 0 or a status. Called once, when a run
- * begins.
+ * MAX_STICK_SPEED. If any was set, iterate all modes to a consistent set. Modes that a start specifies are corrected if
+ * they contradict the slip, as after a change of parameters. Return 0 or a status. Called once, when a run begins.
  */
 static int initialize_friction_modes(Integrator *run, const Parameters *p)
 {
@@ -150,7 +178,8 @@ static int initialize_friction_modes(Integrator *run, const Parameters *p)
         has_unknown = 1;
         run->discrete.mode[i] = fabs(v) <= MAX_STICK_SPEED ? 0.0 : v > 0.0 ? 1.0 : -1.0;
     }
-    return has_unknown ? iterate_friction_modes(run, p) : 0;
+    const int has_changed = set_modes_by_slips(run, MAX_STICK_RESIDUAL);
+    return has_unknown || has_changed ? iterate_friction_modes(run, p) : 0;
 }
 
 #if N_RIGID
@@ -169,11 +198,8 @@ static int update_friction_modes(Integrator *run, const Parameters *p) { return 
 static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     const int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
-    for (int i = 0; i < N_FRICTIONS && !status; i++) {
-        const double v = run->rhs.friction[i].v;
-        if (fabs(v) > MAX_STICK_SPEED)
-            run->discrete.mode[i] = v > 0.0 ? 1.0 : -1.0;
-    }
+    if (!status)
+        set_modes_by_slips(run, MAX_STICK_SPEED);
     return status;
 }
 #endif
@@ -208,6 +234,13 @@ static inline int change_friction_modes(Integrator *run, const Parameters *p)
 
 /* Return the status 0: the scene has no friction modes to start with. */
 static inline int initialize_friction_modes(Integrator *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+/* Return the status 0: the scene has no friction modes that a jump could contradict. */
+static inline int correct_modes_after_jump(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
