@@ -47,7 +47,7 @@ def test_its_file_and_its_python(
     exec(block("python"), names)
     assert missing(block("text"), capsys.readouterr().out) == []
     found = names["study"].dataset  # type: ignore[attr-defined]
-    assert dict(found["peak"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
+    assert dict(found["peak_ax"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
     assert names["study"].failed == 0 and Path("wristpin.nc").exists()  # type: ignore[attr-defined]
     np.testing.assert_allclose(found["t_last"].sel(scene="ideal")[0, :, 0], 4 * np.pi / found["omega"], rtol=1e-5)
 
@@ -90,7 +90,7 @@ def test_its_fragments_are_read() -> None:
     parts, claims = blocks("yaml")[1:]
     head = "format: gudgeon-study/1\nmechanism: slider_crank\nscenes: [ideal, dry]\n"
     assert set(read_studies(f"{head}{parts}".encode(), "parts.yaml").parts) == {"clearance", "speed"}
-    found = read_studies(f"{head}measures: {{peak: {{peak: slider.ax}}}}\n{claims}".encode(), "claims.yaml").claims
+    found = read_studies(f"{head}measures: {{peak_ax: {{peak_of_steps: slider.ax}}}}\n{claims}".encode(), "claims.yaml").claims
     assert [len(found.numbers), len(found.trends)] == [1, 4] and found.source
     assert len(blocks("python")) == 2
 
