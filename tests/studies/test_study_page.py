@@ -110,7 +110,7 @@ def test_the_claims_print_what_is_shown(
 def test_what_it_quotes_is_read() -> None:
     quoted = [text for text in re.findall(r"`((?:zip|draw|choices): \{[^`]*\})`", PAGE) if "…" not in text]
     quoted.append("starts: {count: 2, " + re.findall(r"`(ensembles: \{[^`]*\})`", PAGE)[0] + "}")
-    assert len(quoted) == 5
+    assert len(quoted) == 6
     for text in quoted:
         read_study(f"format: gudgeon-study/1\nmechanism: pendulum\nkeep: [bob.x]\n{text}\n".encode(), "quoted.yaml")
 
