@@ -90,7 +90,8 @@ def test_its_fragments_are_read() -> None:
     parts, claims = blocks("yaml")[1:]
     head = "format: gudgeon-study/1\nmechanism: slider_crank\nscenes: [ideal, dry]\n"
     assert set(read_studies(f"{head}{parts}".encode(), "parts.yaml").parts) == {"clearance", "speed"}
-    found = read_studies(f"{head}measures: {{peak_ax: {{peak_of_steps: slider.ax}}}}\n{claims}".encode(), "claims.yaml").claims
+    measures = "measures: {peak_ax: {peak_of_steps: slider.ax}}\n"
+    found = read_studies(f"{head}{measures}{claims}".encode(), "claims.yaml").claims
     assert [len(found.numbers), len(found.trends)] == [1, 4] and found.source
     assert len(blocks("python")) == 2
 
