@@ -156,6 +156,8 @@ def test_tables_tell_times_ratios_and_what_is_not_reached() -> None:
     assert cells[1:-1] == ["gudgeon auto", "1.00", "4.00", "2.83", "11.3", "5.66", "22.6", "1.00", "1.00", "0.500"]
     (bar,) = ([cell.strip() for cell in line.split("|")] for line in race_page.bars(record()) if "jitcode" in line)
     assert bar[1:-1] == ["andrews", "3.00 × jitcode dop853", "", "", *["–"] * 4]
+    (ratio,) = ([cell.strip() for cell in line.split("|")] for line in race_page.ratios(record()) if "`" in line)
+    assert ratio[1:-1] == ["`andrews`", "angle", "jitcode dop853", "–", "–"]
     assert [race_page.number(x) for x in (6494.0, 999.96, 0.41263, math.nan)] == ["6,490", "1,000", "0.413", "–"]
 
 
@@ -234,7 +236,7 @@ def test_a_contact_of_the_chain_of_dry_joints_is_that_of_the_oracle() -> None:
 def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
     page = race_page.PAGE.read_text(encoding="utf-8")
     assert race_page.filled(page, race_record.read(race_page.CSV)) == page
-    assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {"machine", "bars", *race_record.MEASURES}
+    assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {"machine", "ratios", "bars", *race_record.MEASURES}
     with pytest.raises(ValueError, match="nobody"):
         race_page.filled("<!-- race: nobody -->\n<!-- end -->", record())
 

@@ -26,6 +26,7 @@ UNITS = {
     "ensemble": ("µs a run", 1e6),
     "sweep": ("ms a run", 1e3),
 }
+RATIO_LEVELS = (1e-6, 1e-8)  # errors of the table of COMPARISONS
 DEFAULT = "gudgeon auto"  # the default method, to which the requirements apply
 
 
@@ -52,6 +53,23 @@ BARS = (
     Bar("andrews", DEFAULT, LEVELS[1:], "jitcode dop853", 3.0),
     Bar("andrews", DEFAULT, LEVELS[1:], "Exudyn gen.-alpha", 500.0),
     Bar("sweep", f"{DEFAULT}, 1 thread", (1e-6,), most=(3e-3,)),
+)
+# comparisons at the head of the page: problem, its error, another solver
+COMPARISONS = (
+    ("andrews", "angle", "jitcode dop853"),
+    ("andrews", "angle", "heyoka"),
+    ("double", "angle", "heyoka"),
+    ("links", "angle", "heyoka"),
+    ("long", "energy", "heyoka"),
+    ("swings", "energy", "heyoka"),
+    ("ideal", "motion", "Newton in dense C"),
+    ("ensemble", "motion", "closed form in NumPy"),
+    ("dry", "slider", "CVODE BDF from C"),
+    ("dry", "path", "LSODA (SciPy)"),
+    ("sixteen", "path", "NumPy, DOP853"),
+    ("lubricated", "slider", "CVODE BDF from C"),
+    ("lubricated", "path", "CVODE BDF from C"),
+    ("sweep", "worst", "CVODE BDF from C, 1 thread"),
 )
 THREADS = 1.8  # the sweep: two threads over one, at least
 
@@ -99,6 +117,27 @@ def bars(record: Record) -> list[str]:
     return grid(["problem", "goal", *(f"{kind}{level:.0e}" for level in LEVELS for kind in ("at ", "ratio "))], rows)
 
 
+def find_default(record: Record, work: str) -> str:
+    """Return the entry of gudgeon's default method in a problem, else its first entry of gudgeon; "" without one."""
+    names = record.entries(work)
+    return next((n for n in names if n.startswith(DEFAULT)), next((n for n in names if record.is_own(work, n)), ""))
+
+
+def ratios(record: Record) -> list[str]:
+    """Return the table of COMPARISONS: engine times of other solvers divided by those of the default method.
+
+    A cell is empty if the table of the problem lacks its error, and a dash if a solver does not reach the error.
+    """
+    rows = []
+    for work, measure, peer in (c for c in COMPARISONS if c[2] in record.entries(c[0])):
+        cells = []
+        for level in RATIO_LEVELS:
+            times = [record.time_to(work, name, measure, level) for name in (peer, find_default(record, work))]
+            cells.append(number(times[0] / times[1]) if level in LEVELS_OF.get(work, LEVELS) else "")
+        rows.append([f"`{work}`", measure, peer, *cells])
+    return grid(["problem", "error", "solver", *(f"ratio at {level:.0e}" for level in RATIO_LEVELS)], rows)
+
+
 def table(record: Record, work: str, measure: str) -> list[str]:
     """Return the table of a problem: times of all entries to each error, engine alone and whole call side by side.
 
@@ -108,7 +147,7 @@ def table(record: Record, work: str, measure: str) -> list[str]:
     levels = ONSET_LEVELS if measure == "onset" else LEVELS_OF.get(work, LEVELS)
     unit, scale = UNITS.get(work, ("ms", 1e3))
     names = record.entries(work)
-    base = next((n for n in names if n.startswith(DEFAULT)), next((n for n in names if record.is_own(work, n)), ""))
+    base = find_default(record, work)
 
     def times(name: str) -> list[float]:
         """Return engine and call to each error, then both ratios."""
@@ -132,14 +171,25 @@ def table(record: Record, work: str, measure: str) -> list[str]:
     return grid([head[k] for k in columns], [[row[k] for k in columns] for row in rows])
 
 
+def machine_facts(record: Record) -> list[str]:
+    """Return the facts of the machines of all runs; runs with the same value of a fact have one line together."""
+    runs_of: dict[tuple[str, str], list[str]] = {}
+    for name, value in record.facts.items():
+        if name.startswith("run "):
+            run, _, fact = name.removeprefix("run ").partition(", ")
+            runs_of.setdefault((fact, value), []).append(run)
+    if len(record.runs()) <= 1:
+        return [f"- {fact}: {value}" for fact, value in runs_of]
+    return [
+        f"- {'run' if len(runs) == 1 else 'runs'} {', '.join(runs)}, {fact}: {value}"
+        for (fact, value), runs in runs_of.items()
+    ]
+
+
 def facts(record: Record, work: str = "") -> list[str]:
     """Return the facts of a problem, or of the machines of all runs."""
     if not work:
-        return [
-            f"- {name if len(record.runs()) > 1 else name.partition(', ')[2]}: {value}"
-            for name, value in record.facts.items()
-            if name.startswith("run ")
-        ]
+        return machine_facts(record)
     prefix = f"{work}, "
     found = [f"- {name.removeprefix(prefix)}: {x}" for name, x in record.facts.items() if name.startswith(prefix)]
     runs = record.runs(work)
@@ -148,7 +198,7 @@ def facts(record: Record, work: str = "") -> list[str]:
 
 def blocks(record: Record) -> dict[str, str]:
     """Return the texts between the marks by name."""
-    found = {"machine": facts(record), "bars": bars(record)}
+    found = {"machine": facts(record), "ratios": ratios(record), "bars": bars(record)}
     for work, measures in MEASURES.items():
         lines = facts(record, work)
         if not record.entries(work):

@@ -47,7 +47,7 @@ def test_its_file_and_its_python(
     exec(block("python"), names)
     assert missing(block("text"), capsys.readouterr().out) == []
     found = names["study"].dataset  # type: ignore[attr-defined]
-    assert dict(found["peak"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
+    assert dict(found["peak_ax"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
     assert names["study"].failed == 0 and Path("wristpin.nc").exists()  # type: ignore[attr-defined]
     np.testing.assert_allclose(found["t_last"].sel(scene="ideal")[0, :, 0], 4 * np.pi / found["omega"], rtol=1e-5)
 
@@ -90,7 +90,8 @@ def test_its_fragments_are_read() -> None:
     parts, claims = blocks("yaml")[1:]
     head = "format: gudgeon-study/1\nmechanism: slider_crank\nscenes: [ideal, dry]\n"
     assert set(read_studies(f"{head}{parts}".encode(), "parts.yaml").parts) == {"clearance", "speed"}
-    found = read_studies(f"{head}measures: {{peak: {{peak: slider.ax}}}}\n{claims}".encode(), "claims.yaml").claims
+    measures = "measures: {peak_ax: {peak_of_steps: slider.ax}}\n"
+    found = read_studies(f"{head}{measures}{claims}".encode(), "claims.yaml").claims
     assert [len(found.numbers), len(found.trends)] == [1, 4] and found.source
     assert len(blocks("python")) == 2
 
@@ -110,7 +111,7 @@ def test_the_claims_print_what_is_shown(
 def test_what_it_quotes_is_read() -> None:
     quoted = [text for text in re.findall(r"`((?:zip|draw|choices): \{[^`]*\})`", PAGE) if "…" not in text]
     quoted.append("starts: {count: 2, " + re.findall(r"`(ensembles: \{[^`]*\})`", PAGE)[0] + "}")
-    assert len(quoted) == 5
+    assert len(quoted) == 6
     for text in quoted:
         read_study(f"format: gudgeon-study/1\nmechanism: pendulum\nkeep: [bob.x]\n{text}\n".encode(), "quoted.yaml")
 
