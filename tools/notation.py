@@ -35,25 +35,35 @@ This page lists each symbol of [physics](physics.md) with its sign convention, i
 YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper"
 is Chen, Gao and Wang (2022).
 
-- Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
+Example of a row: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
+`rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
+relative to the bearing's. Every other row is read in the same way.
+
+Symbols and placeholders:
+
+- A symbol stands for one quantity, except $K$, $S$, $v_0$ and $c$, which each force law or joint type defines.
+- Bold letters are vectors.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
 - The sign – in a column marks a quantity that has no name there.
-  [The last table](#other-symbols-of-the-equations) lists the symbols of intermediate and general quantities.
-- Bold letters are vectors. In each table, a symbol stands for one quantity.
-- Within one force law, each symbol stands for one quantity. The equation of each law defines its contact stiffness $K$,
-  its film factor $S$ and its characteristic slip $v_0$.
-- The letter $c$ is the clearance of a joint: the radial clearance of a bearing, or the gap on each side of a guide.
-- All variables in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is
-  $-F_n$, where $F_n$ is the normal force. The attribute `F_n` of a joint in the NumPy functions (`equations.dynamics`)
-  is $-F_n$ too.
+- [The last table](#other-symbols-of-the-equations) lists the symbols of intermediate and general quantities.
+
+Units:
+
+- Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
+
+Signs:
+
+- Variables in C have the sign of their quantity. One exception is `rhs->clearance[i].F_n`: its value is $-F_n$, where
+  $F_n$ is the normal force.
+- In the NumPy functions (`equations.dynamics`), the attribute `F_n` of a joint is $-F_n$ too.
+
+Names in C:
+
 - Some names in C differ from the term of their quantity: see
   [the table of these names](#names-in-c-that-differ-from-the-term).
-- `make tables` writes this page from the declarations in the code. A test compares the page with the symbols of
-  [physics](physics.md).
 
-Example: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
-`rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
-relative to the bearing's.
+`make tables` writes this page from the declarations in the code. A test compares the page with the symbols of
+[physics](physics.md).
 """
 NONE = "–"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
