@@ -293,13 +293,16 @@ def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: fl
     for _ in range(N_LEVELS):
         times = np.linspace(a, b, N_LEVEL_INTERVALS + 1)
         f = evaluate_at_times(source, p, tree, times)
-        second_differences = np.abs(np.diff(f, 2))
+        curvatures = np.diff(f, 2)
+        second_differences = np.abs(curvatures)
         if not np.isfinite(second_differences).all():
             return None  # no number there: another matter
         k = int(second_differences.argmax())
         if second_differences[k] < 1e-11 * np.abs(f).max(initial=0.0) or b - a < 1e-11 * max(abs(a), abs(b)):
             break
         if np.count_nonzero(second_differences > 0.25 * second_differences[k]) >= MAX_LARGE_DIFFERENCES:
+            if abs(np.sign(curvatures).sum()) == len(curvatures):
+                return None  # all have one sign: the intervals resolve a smooth function, as the tail of a narrow pulse
             break  # rounding, as of a square that is not quite one under its root
         logs.append(float(np.log(second_differences[k]) / np.log(4.0)))
         sizes.append(float(abs((f[-1] - f[-2]) - (f[1] - f[0])) / (times[1] - times[0])))

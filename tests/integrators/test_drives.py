@@ -318,3 +318,28 @@ def test_rk4_steps_over_a_bounded_one(value: str, tmp_path: Path) -> None:
 def test_a_run_that_an_event_ends_comes_to_no_jump(tmp_path: Path) -> None:
     text = PAIR + 'events: {early: {zero: "t - 0.3 s", action: stop}}\n'
     assert driven(text, "acos(cos(t/(1 s) - 0.5))", tmp_path).simulate(0.8, output=80).t[-1] == pytest.approx(0.3)
+
+
+PULSE = """
+format: gudgeon/1
+name: pulse
+parameters: {w: 0.01 s, tc: 1 s, amp: 0.01 m}
+bodies: {cart: {mass: 1 kg, inertia: 1e-3 kg*m^2}, bar: {length: 1 m, mass: 1 kg, inertia: 0.1 kg*m^2}}
+ground: {O: [0, 0]}
+joints:
+  rail: {translational: [ground.O, cart.origin], axis: [1, 0], angle: 0}
+  pin: {revolute: [cart.origin, bar.tail]}
+drives: {shake: {coordinate: cart.x, value: "amp*exp(-((t - tc)/w)**2)"}}
+start: {set: {bar.theta: -90 deg}, rates: {bar.omega: 0}}
+"""
+
+
+def test_a_narrow_pulse_is_no_jump(tmp_path: Path) -> None:
+    """The tail of a pulse that is narrower than a search interval grows by many orders within it, and is smooth."""
+    rng = np.random.default_rng(7)
+    file = tmp_path / "pulse.yaml"
+    file.write_text(PULSE, encoding="utf-8")
+    scene = gudgeon.load(file)
+    for width, time in zip(10.0 ** rng.uniform(-4.0, -2.0, 40), rng.uniform(5.0, 95.0, 40), strict=True):
+        scene.simulate(100.0, output=2, parameters={"w": width, "tc": time, "amp": width})
+    scene.simulate(100.0, output=2, parameters={"w": 3.489890490510235e-4, "tc": 19.033897807209538, "amp": 4.918e-4})
