@@ -30,6 +30,8 @@ def test_every_room_says_its_purpose() -> None:
 def test_no_regular_expression_looks_at_emitted_text() -> None:
     """Those that are left read what people wrote: comments, titles, sketches, a parameter's own name (omega4 is ω).
 
+    The page of the laws reads words and equations that the laws' declarations contain.
+
     equal_parts.py compares printed parts: only the text has the order of terms, which decides the bits of a sum.
     """
     names = ("ir", "kernels", "solvers", "reduction", "targets", "targets/c", "targets/latex", "targets/numpy")
@@ -38,6 +40,9 @@ def test_no_regular_expression_looks_at_emitted_text() -> None:
     read = {("printer.py", "sanitize_comment"), ("readme.py", "_escape_markdown"), ("letters.py", "make_word_name")}
     read |= {("theory.py", "find_sketch_symbols")}
     read |= {("equal_parts.py", function) for function in ("", "_replace_tokens", "_print_joined_part")}
+    read |= {("law_page.py", function) for function in ("_format_words", "_format_source", "_name_film_clearance")}
+    read |= {("law_symbols.py", name) for name in ("", "_brace_index", "_normalize_latex")}
+    read |= {("law_symbols.py", name) for name in ("find_symbols", "list_symbol_rows")}
     assert users == read
 
 

@@ -21,6 +21,7 @@ from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws, fi
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, derive_forms, print_equation
 from gudgeon.generator.targets.latex.law_page import list_laws_of_role, print_laws_page
+from gudgeon.generator.targets.latex.law_symbols import list_symbol_rows
 from gudgeon.generator.targets.latex.letters import make_name_from_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
@@ -247,3 +248,12 @@ def test_the_page_of_laws_is_current() -> None:
     assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
         law.name for role in RESULTS for law in list_laws_of_role(role)
     ]
+
+
+def test_the_page_of_laws_defines_each_symbol_of_an_equation() -> None:
+    """A table of symbols leaves out those of keys; a letter that no table defines is an error."""
+    rows = [*list_symbol_rows([r"F_n = K \delta^n + F_{\mathrm{el}}"], "hertz", ["K", "n"])]
+    assert [row.split(" | ")[0] for row in rows[2:-1]] == ["| $F_n$", r"| $\delta$", r"| $F_{\text{el}}$"]
+    with pytest.raises(ValueError, match="does not define the symbol Q_1"):
+        list(list_symbol_rows([r"F_n = Q_1 \delta"], "hertz"))
+    assert "defines all symbols" not in page_of_laws() and "$L/(2R_j)$" in page_of_laws()
