@@ -8,7 +8,7 @@
  * elements hold its slip at zero.
  */
 #if N_FRICTIONS
-#define MAX_STICK_RESIDUAL (10.0 * MAX_STICK_SPEED) /* m/s: slip of a sticking element, from errors of the integration */
+#define MAX_STICK_RESIDUAL (10.0 * MAX_STICK_SPEED) /* m/s: of a sticking element, by errors of integration */
 #define SLIP_ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
 enum { MAX_MODE_PASSES = 8 + 4 * N_FRICTIONS };
 
