@@ -153,6 +153,7 @@ static int set_modes_by_slips(Integrator *run, double max_slip)
     return has_changed;
 }
 
+#if DRIVE_IMPULSES
 /*
  * Correct the modes after a jump of velocities from the slips in run->rhs, and iterate all modes to a consistent set.
  * The slip of a sticking element may differ from zero by MAX_STICK_RESIDUAL. If no mode contradicts its slip, nothing
@@ -162,6 +163,7 @@ static int correct_modes_after_jump(Integrator *run, const Parameters *p)
 {
     return set_modes_by_slips(run, MAX_STICK_RESIDUAL) ? iterate_friction_modes(run, p) : 0;
 }
+#endif
 
 /*
  * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick if |slip| <=
@@ -239,12 +241,14 @@ static inline int initialize_friction_modes(Integrator *run, const Parameters *p
     return 0;
 }
 
+#if DRIVE_IMPULSES
 /* Return the status 0: the scene has no friction modes that a jump could contradict. */
 static inline int correct_modes_after_jump(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
 }
+#endif
 
 #if N_RIGID
 /* Return the status 0: the scene has no friction modes to update. */

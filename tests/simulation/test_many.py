@@ -259,9 +259,10 @@ def test_the_start_closed_in_c_is_that_of_the_search(name: str) -> None:
     assert np.abs(quick.v - sought.v).max() <= 1e-12 * np.abs(sought.v).max(initial=0.0)
 
 
-def test_a_start_with_dependent_rows_is_left_to_the_search() -> None:
+def test_a_guess_that_closes_dependent_rows_is_the_start() -> None:
     simulation = gudgeon.load("pendulum")  # what holds the bob sideways and what holds its distance agree there
     compiled, p = simulation.compiled, simulation.p
-    assert compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p)) is None
+    closed = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
+    assert closed is not None and closed[0].tolist() == [1.0, 0.0, 0.0] and not closed[1].any()
     batch = simulation.simulate_many({"g": [9.81, 5.0]}, 0.5, output=3)
     assert_same(batch[1], simulation.simulate(0.5, output=3, parameters={"g": 5.0}))
