@@ -177,7 +177,7 @@ def pendulum(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_a_start_that_is_its_guess_is_closed_in_the_page(opened: Any, pendulum: Path) -> None:
-    """A slider of a mechanism whose guess closes dependent equations: nothing is followed from the start of the file."""
+    """A slider of a mechanism whose guess closes dependent equations: no start is followed from that of the file."""
     shown = opened(pendulum)
     assert "followed" not in shown.page.inner_text("#g-counts")
     shown.page.evaluate("gudgeonApp.panel.set('parameters.length', 1.1)")
