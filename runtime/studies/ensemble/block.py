@@ -39,6 +39,7 @@ from gudgeon.studies.ensemble.parameter_values import (
     find_parameter,
     find_parameter_key,
     parse_real_value,
+    to_python_value,
 )
 from gudgeon.studies.ensemble.subtracted_series import (
     compute_subtracted_series,
@@ -200,7 +201,7 @@ class RunTable:
         """
         rows: list[dict[str, float | str]] = [{} for _ in range(n_runs)]
         for name, column in self.columns.items():
-            for i, value in enumerate(map(_to_python_value, column)):
+            for i, value in enumerate(map(to_python_value, column)):
                 if isinstance(value, str) or math.isfinite(value):
                     rows[i][name] = value
                 else:
@@ -283,11 +284,6 @@ class RunTable:
         return values
 
 
-def _to_python_value(value: Any) -> float | str:
-    """Return an entry of an array as a Python float, or unchanged if it is a text."""
-    return value if isinstance(value, str) else float(value)
-
-
 def _simulate_block_runs(
     simulation: Simulation, job: Job, table: RunTable, runs: Array, progress: Progress | None
 ) -> Batch:
@@ -309,7 +305,7 @@ def _simulate_block_runs(
         )
     same_end = len(set(ends.tolist())) == 1
     t_end: Any = None if not same_times else float(ends[0]) if same_end else ends
-    parameters: Any = {name: list(map(_to_python_value, values[runs])) for name, values in table.columns.items()}
+    parameters: Any = {name: list(map(to_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
     origin, sliding = (
         find_scene_subtracted_over_steps(settings.measures, source),

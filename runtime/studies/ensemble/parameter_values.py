@@ -251,3 +251,8 @@ def evaluate_expression_for_runs(source: KernelSource, expr: Expr, p: Array, ext
         return p[:, index_of_address[parameter.address]]
 
     return np.array(np.broadcast_to(np.asarray(evaluate(expr, get_values), dtype=float), (len(p),)))
+
+
+def to_python_value(value: Any) -> float | str:
+    """Return an entry of an array of parameter values as a Python float; a text unchanged."""
+    return value if isinstance(value, str) else float(value)

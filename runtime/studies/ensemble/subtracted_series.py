@@ -24,7 +24,7 @@ from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import get_method_for_scene, load_library
 from gudgeon.studies.ensemble.measures import STEP_STATISTICS
-from gudgeon.studies.ensemble.parameter_values import find_parameter_key
+from gudgeon.studies.ensemble.parameter_values import find_parameter_key, to_python_value
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -205,16 +205,11 @@ def _build_run_inputs(simulation: Simulation, table: RunTable, runs: Array, time
     """
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := find_parameter_key(source, name))}
-    rows = [{name: _to_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
+    rows = [{name: to_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
     given, is_given = read_given_parameters_of_runs(source, rows)
     p, _, _ = prepare_values_of_runs(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
     return RunInputs(columns, p, np.where(find_ineffective_parameters(source), 0.0, p), tuple(times), step)
-
-
-def _to_python_value(value: Any) -> float | str:
-    """Return an entry of an array of parameter values as a Python float; a text unchanged."""
-    return value if isinstance(value, str) else float(value)
 
 
 def _compute_kinematic_series(
@@ -279,7 +274,7 @@ def _simulate_subtracted_series(
     has_common_times = all(np.array_equal(times, t[0]) for times in t)
     try:
         batch = simulation.simulate_many(
-            {name: [_to_python_value(values[i]) for i in runs] for name, values in run_inputs.columns.items()}
+            {name: [to_python_value(values[i]) for i in runs] for name, values in run_inputs.columns.items()}
             or [{}] * len(runs),
             output=t[0] if has_common_times else t,
             method=get_method_for_scene(source, job.run_settings.method),
