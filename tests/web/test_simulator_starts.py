@@ -1,4 +1,4 @@
-"""Starts of pages that only Python's search finds: followed from the file's as numbers of it change, or told."""
+"""Starts of pages: closed in the page where the guess closes, else followed from the file's, or refused."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ pytest.importorskip("ziglang", reason="the extra web is not installed: no compil
 
 
 @needs_node
-def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: Path) -> None:
-    """The pendulum's: gravity leaves it, another length moves it, and so it is followed."""
+def test_a_start_that_is_its_guess_is_closed_in_the_page(tmp_path: Path) -> None:
+    """The pendulum's, for another gravity and another length: nothing is followed from the start of the file."""
     pendulum = gudgeon.load("pendulum")
     options: dict[str, Any] = {"t_end": 2.0, "output": 37}
     weaker, longer = in_node(
@@ -34,7 +34,7 @@ def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: P
     )
     options["method"] = "dop853"  # as auto in pages, which have no Taylor series
     assert same_bits(weaker, pendulum.simulate(parameters={"g": 1.62}, **options))
-    assert not weaker.is_continued and longer.is_continued
+    assert not weaker.is_continued and not longer.is_continued
     assert_near(longer, pendulum.simulate(parameters={"length": 2.0}, **options))
 
 
