@@ -1,5 +1,6 @@
 /* Independent check of the integration errors of whole steps (run/audit.c), and the scales of these errors. */
 #define AUDIT_DIGITS 1e-10 /* of a state: smaller differences are rounding */
+#define AUDIT_RATE_DIGITS 1e-13 /* of positions and time: their uncertainty where rates are compared */
 #define AUDIT_STEP 15.0 /* tolerances: allowed error of a step */
 #define AUDIT_ORDER 1e-3 /* of the change of rates over a step: allowed mean error */
 #define AUDIT_LOOSE_TOL 1e-6 /* tolerance above which that limit grows with its root */
@@ -49,6 +50,24 @@ static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const
 }
 
 /*
+ * Estimate the rounding error of the rates `dy` of coordinates and velocities at time t and state y: their change if
+ * positions and time change by AUDIT_RATE_DIGITS. It is large near an equilibrium, where large forces cancel.
+ * rounding (2 N_X): result, in the units of dy. Return 0, or the status of an evaluation that fails.
+ */
+static int estimate_rounding_of_rates(Integrator *run, double t, const double *y, const double *dy,
+    const Parameters *p, double *rounding)
+{
+    double perturbed[N_Y], rate[N_Y];
+    RhsOutputs rhs;
+    for (int k = 0; k < N_Y; k++)
+        perturbed[k] = k < N_X ? y[k] * (1.0 + (k % 2 ? -AUDIT_RATE_DIGITS : AUDIT_RATE_DIGITS)) : y[k];
+    const int status = evaluate_run_rhs(run, t * (1.0 - AUDIT_RATE_DIGITS), perturbed, p, rate, &rhs);
+    for (int k = 0; k < 2 * N_X; k++)
+        rounding[k] = fabs(rate[k] - dy[k]);
+    return status;
+}
+
+/*
  * Add the error of a measured step to the sums of the audit, and record the mean error as CHECK_step. Its limit is
  * AUDIT_ORDER of the mean change of rates over a step, more for loose tolerances. A method that has lost its order
  * exceeds it. error, change: of this step, in tolerances.
@@ -79,16 +98,18 @@ static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 
 
 /*
  * Return the largest component of a step's `error` (coordinates and velocities, 2 N_X) as a multiple of `allowed_error`
- * tolerances plus rounding of the state. error_norm: set to the largest error less rounding, in tolerances, at least 0.
+ * tolerances plus rounding of the state and of its rates (`rounding_of_rates`). error_norm: set to the largest error
+ * less rounding, in tolerances, at least 0.
  */
-static double find_largest_error(const Integrator *run, const Step *step, const double *error, double allowed_error,
-    double *error_norm)
+static double find_largest_error(const Integrator *run, const Step *step, const double *error,
+    const double *rounding_of_rates, double allowed_error, double *error_norm)
 {
     double worst = 0.0;
     *error_norm = 0.0;
     for (int k = 0; k < 2 * N_X; k++) {
         const double weight = compute_audit_weight(run, k);
-        const double rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(step->h * step->dy[k]));
+        const double rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(step->h * step->dy[k]))
+            + step->h * rounding_of_rates[k];
         worst = max_of(worst, fabs(error[k]) * weight / (allowed_error + rounding * weight));
         *error_norm = max_of(*error_norm, (fabs(error[k]) - rounding) * weight);
     }
@@ -106,7 +127,8 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], error_norm, change = 0.0; /* mean defect, 1/s */
+    double y[N_Y], dy[N_Y], rate[N_Y], rounding[2 * N_X];
+    double mean[N_Y] = {0.0}, error[N_Y], error_norm, change = 0.0; /* mean defect, 1/s */
     RhsOutputs rhs;
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->is_ignored[k])
@@ -125,14 +147,16 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
         for (int k = 0; k < 2 * N_X; k++)
             change = max_of(change, h * fabs(dy[k] - run->dy[k]) * compute_audit_weight(run, k));
     }
+    if (estimate_rounding_of_rates(run, step->t + gauss_node[COUNT_OF(gauss_node) - 1] * h, y, dy, p, rounding))
+        return;
     for (int k = 0; k < N_Y; k++)
         error[k] = h * mean[k];
-    double worst = stiff ? INFINITY : find_largest_error(run, step, error, limit, &error_norm);
+    double worst = stiff ? INFINITY : find_largest_error(run, step, error, rounding, limit, &error_norm);
     if (worst > 1.0) {
         if (factor_newton_matrix(run, h, p))
             return;
         newton_solve(&run->newton.linear, h, 0.0, mean, error);
-        worst = find_largest_error(run, step, error, limit, &error_norm);
+        worst = find_largest_error(run, step, error, rounding, limit, &error_norm);
     }
     check_convergence_order(run, error_norm, change);
     run->audit.longest_measured = max_of(run->audit.longest_measured, h);

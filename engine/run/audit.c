@@ -10,6 +10,8 @@
 #define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
+#define AUDIT_DIFFERENCE_STEPS 1e3 /* steps of the integrator that count as a time scale of motion and drives */
+#define AUDIT_MIN_DIFFERENCE 2e-9 /* of the time scale of the motion: rounding spoils differences over shorter times */
 #define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
 #define AUDIT_CLOSURE_TOL 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_LOOP_ULPS 1024.0    /* roundings to which kinematically determined loops are closed */
@@ -203,11 +205,12 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
 /*
  * Check the accelerations in the rates dy of the reduced formulation against those from the equations of all bodies.
  * Reduced accelerations are converted to all bodies by differences of velocities, (v(t + h) - v(t - h))/(2 h). If
- * second differences show that h is too long, h is reduced. The check is omitted near a singular position, at a jump of
- * a drive, after very many turns, and in scenes without a reduced formulation. absolute_state (N_S): the state of all
- * bodies at t. Called at states inside steps that the audit selects.
+ * second differences show that h is too long, h is reduced. It is at most a hundredth of the integrator's step
+ * (step_length, s), which resolves the drives. The check is omitted in very short steps, where all accelerations are
+ * nearly 0, near a singular position, at a jump of a drive, after very many turns, and in scenes without a reduced
+ * formulation. absolute_state (N_S): the state of all bodies at t. Called at states inside selected steps.
  */
-static void check_accelerations(Integrator *run, double t, const double *y, const double *dy,
+static void check_accelerations(Integrator *run, double t, double step_length, const double *y, const double *dy,
     const double *absolute_state, const Parameters *p)
 {
 #if TREE
@@ -228,10 +231,12 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++) { /* forces in balance leave accelerations that are rounding */
         const double rounding = m[k] > 0.0 ? AUDIT_BALANCE * force * (k % 3 == 2 ? size : 1.0) / m[k] : 0.0;
-        scale[k] = max_of(max_of(largest[k % 3 == 2], rounding), 1e-300);
+        scale[k] = max_of(max_of(largest[k % 3 == 2], rounding), DBL_MIN / DBL_EPSILON);
     }
-    for (double fraction = 1e-5; fraction > 1e-8 && rate > 0.0; fraction *= 0.03) {
-        const double h = fraction / rate;
+    for (double fraction = 1e-5; fraction > 1e-8; fraction *= 0.03) {
+        const double h = fraction * min_of(1.0 / rate, AUDIT_DIFFERENCE_STEPS * step_length);
+        if (!(h * rate > AUDIT_MIN_DIFFERENCE))
+            return;
         double largest_difference = 0.0, second_difference = 0.0;
         int index = 0;
         const double interval = compute_neighbouring_states(run, t, y, dy, h, p, neighbours);
@@ -254,7 +259,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
         }
     }
 #else
-    (void)run, (void)t, (void)y, (void)dy, (void)absolute_state, (void)p;
+    (void)run, (void)t, (void)step_length, (void)y, (void)dy, (void)absolute_state, (void)p;
 #endif
 }
 

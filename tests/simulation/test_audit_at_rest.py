@@ -10,6 +10,7 @@ import pytest
 
 import gudgeon
 from tests.audit_mutants import mutant
+from tests.integrators.test_drives import PULSE as DRIVEN_PIVOT
 from tests.programs import needs_compiler
 from tests.scenes import loader
 from tests.simulation.test_audit import reported
@@ -290,3 +291,16 @@ def test_samples_that_are_all_at_rest_between_fast_steps(method: str, rtol: floa
     assert np.abs(run.v[:, :2]).max() < 1e-4 and np.abs(energy).max() < 1e-9
     findings = {finding.check: finding.worst for finding in run.diagnostics.audit}
     assert 0.0 < findings["energy"] <= 1.0
+
+
+@pytest.mark.parametrize("gravity", ["", "gravity: [0, -9.81 m/s^2]\n"], ids=["free", "hanging"])
+def test_a_link_at_rest_before_a_pulse(gravity: str, tmp_path: Path) -> None:
+    """Rates of a body at rest are rounding; those of a drive before its pulse are as small as 1e-300."""
+    file = tmp_path / "rest.yaml"
+    file.write_text(DRIVEN_PIVOT + gravity, encoding="utf-8")
+    scene, rng = gudgeon.load(file), np.random.default_rng(3)
+    for _ in range(12):
+        width, time, rtol = 10.0 ** rng.uniform(-3.0, -0.5), rng.uniform(20.0, 95.0), 10.0 ** rng.uniform(-13.0, -11.5)
+        for method in ("dop853", "taylor", "radau9"):
+            run = scene.simulate(100.0, output=2, rtol=rtol, method=method, parameters={"w": width, "tc": time})
+            assert not audit_notes(run), (width, time, rtol, method)
