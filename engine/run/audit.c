@@ -11,7 +11,6 @@
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
 #define AUDIT_DIFFERENCE_STEPS 1e3 /* steps of the integrator that count as a time scale of motion and drives */
-#define AUDIT_MIN_DIFFERENCE 2e-9 /* of the time scale of the motion: rounding spoils differences over shorter times */
 #define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
 #define AUDIT_CLOSURE_TOL 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_LOOP_ULPS 1024.0    /* roundings to which kinematically determined loops are closed */
@@ -206,9 +205,9 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
  * Check the accelerations in the rates dy of the reduced formulation against those from the equations of all bodies.
  * Reduced accelerations are converted to all bodies by differences of velocities, (v(t + h) - v(t - h))/(2 h). If
  * second differences show that h is too long, h is reduced. It is at most a hundredth of the integrator's step
- * (step_length, s), which resolves the drives. The check is omitted in very short steps, where all accelerations are
- * nearly 0, near a singular position, at a jump of a drive, after very many turns, and in scenes without a reduced
- * formulation. absolute_state (N_S): the state of all bodies at t. Called at states inside selected steps.
+ * (step_length, s), which resolves the drives. The check is omitted in very short steps, near a singular
+ * position, at a jump of a drive, after very many turns, and in scenes without a reduced formulation.
+ * absolute_state (N_S): the state of all bodies at t. Called at states inside selected steps.
  */
 static void check_accelerations(Integrator *run, double t, double step_length, const double *y, const double *dy,
     const double *absolute_state, const Parameters *p)
@@ -233,10 +232,11 @@ static void check_accelerations(Integrator *run, double t, double step_length, c
         const double rounding = m[k] > 0.0 ? AUDIT_BALANCE * force * (k % 3 == 2 ? size : 1.0) / m[k] : 0.0;
         scale[k] = max_of(max_of(largest[k % 3 == 2], rounding), DBL_MIN / DBL_EPSILON);
     }
-    for (double fraction = 1e-5; fraction > 1e-8; fraction *= 0.03) {
+    for (double fraction = 1e-5; fraction > 1e-8 && rate > 0.0; fraction *= 0.03) {
         const double h = fraction * min_of(1.0 / rate, AUDIT_DIFFERENCE_STEPS * step_length);
-        if (!(h * rate > AUDIT_MIN_DIFFERENCE))
-            return;
+        for (int k = 0; k < N_Q; k++)
+            if (DBL_EPSILON * fabs(absolute_state[N_Q + k]) > 0.1 * AUDIT_ACCELERATION * h * scale[k])
+                return; /* h is so short that differences of velocities are rounding */
         double largest_difference = 0.0, second_difference = 0.0;
         int index = 0;
         const double interval = compute_neighbouring_states(run, t, y, dy, h, p, neighbours);
