@@ -262,8 +262,9 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
 }
 
 /*
- * Return the number of steps against the method of each lane after this step (switch_method_after_step()): 0 where it
- * does not speak against it.
+ * Return the number of successive steps, including this one, whose stiffness h rho speaks for the other method
+ * (explicit or stiff) in each lane (switch_method_after_step()): h_rho is outside min_rho..max_rho of the limits. 0
+ * where it is within.
  */
 static Lanes count_opposing_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
 {

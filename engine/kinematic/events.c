@@ -11,7 +11,7 @@
 /* A position with the values of event functions and, if has_error, their uncertainties. */
 typedef struct {
     Position position;
-    double event[N_USER_EVENTS], error[N_WATCHED];
+    double event[N_USER_EVENTS], error[N_MONITORED];
     int has_error;
 } SampledPosition;
 
@@ -107,7 +107,7 @@ static double estimate_event_uncertainty(const KinematicRun *run, SampledPositio
     const Position *position = &sample->position;
     double q_error[N_Q] = {0.0}, v_error[N_Q] = {0.0}, speed[2];
     if (sample->has_error)
-        return sample->error[N_WATCHED - N_USER_EVENTS + i];
+        return sample->error[N_MONITORED - N_USER_EVENTS + i];
     for (int mask = 0; mask < 8; mask = mask ? 2 * mask : 1) {
         Position perturbed;
         perturb_position(run, position, mask, &perturbed);
@@ -127,7 +127,7 @@ static double estimate_event_uncertainty(const KinematicRun *run, SampledPositio
     estimate_error_by_bounds(position->t, position->q, position->v, q_error, v_error, N_Q, &(DiscreteState){0}, run->p,
         sample->error);
     sample->has_error = 1;
-    return sample->error[N_WATCHED - N_USER_EVENTS + i];
+    return sample->error[N_MONITORED - N_USER_EVENTS + i];
 }
 
 /*
@@ -323,12 +323,12 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 {
     const SampledPosition *a = &search->begin;
     const double h = b->position.t - a->position.t;
-    Interval q[N_Q], v[N_Q], out[N_WATCHED];
+    Interval q[N_Q], v[N_Q], out[N_MONITORED];
     bound_motion(&a->position, &b->position, q, v);
-    bound_watched_functions((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
+    bound_monitored_functions((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
         search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        const Interval f = out[N_WATCHED - N_USER_EVENTS + i];
+        const Interval f = out[N_MONITORED - N_USER_EVENTS + i];
         const double sign = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == search->h)
             search->max_bound[i] = max_of(-f.lo, f.hi);

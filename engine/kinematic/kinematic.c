@@ -192,7 +192,8 @@ static int make_step(KinematicRun *run, StepLength *step_length, double t1, Posi
         if (is_near)
             error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error
-            && (step_length->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
+            && (step_length->halvings > MAX_HALVINGS_FOR_TRANSIENT
+                || !has_hidden_transient(position->t, next, run->p))) {
             *position = next_position;
             /* the error is proportional to h cubed */
             if (step_length->halvings > 0 && error < STEP_DOUBLING_ERROR * max_error) {

@@ -62,9 +62,12 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
 
 /*
  * Return the factor by which a step of length h (s) must change so that straight motion over it has the allowed error.
- * change, size: of the accelerations, by compute_acceleration_change(). At an onset the error grows as
- * h^(first_step_order - 1), as forces begin as delta^n. Elsewhere allowed_error is the relative change of the
- * accelerations, and changes below one tolerance do not count. Infinity without a change.
+ * change, size: of the accelerations, by compute_acceleration_change().
+ *
+ * At an onset the error grows as h^(first_step_order - 1), as forces begin as delta^n: the factor is (allowed_error /
+ * (change h))^(1 / (first_step_order - 1)). Elsewhere allowed_error is the relative change of the accelerations, and
+ * changes below one tolerance do not count: the factor is max(allowed_error size / change, 1 / sqrt(change h)).
+ * Infinity without a change.
  */
 static double compute_length_factor(const Integrator *run, double h, double change, double size, double allowed_error)
 {

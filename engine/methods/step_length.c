@@ -10,7 +10,7 @@
  * RADAU5 of II, section IV.8. Constants without a source were chosen for gudgeon.
  */
 #define SAFETY_ONSET 0.8        /* the same for the first step of a contact, whose error has a lower order */
-#define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a watched function may have a zero in the step */
+#define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a monitored function may have a zero in the step */
 #define MAX_GROWTH_FIRST 5.0    /* largest ratio for the stored length of first steps after an event */
 #define MIN_SHRINK 0.1          /* smallest ratio of the lengths of an attempt and the rejected one before */
 #define MAX_SHRINK 0.9          /* largest ratio */
@@ -50,7 +50,8 @@ static void relink_methods(Integrator *run)
 
 /*
  * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change: its
- * index, or 0 if the method never changes. A run that begins with the stiff method returns to dop853.
+ * index, or 0 if the method never changes. A run that begins with the stiff method returns to dop853, after 4
+ * MIN_RETURN_STEPS steps that oppose the stiff method instead of MIN_RETURN_STEPS.
  */
 static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
@@ -239,9 +240,10 @@ static void record_first_step_length(Integrator *run, const Step *step)
 }
 
 /*
- * Update the order of error growth seen in rejected attempts, by which the next step may grow. In stiff motion that
- * order can be far higher than the method's. was_rejected: whether an attempt at this step was rejected, which then
- * updates the stored order; the order decays with each step.
+ * Update the order of error growth seen in rejected attempts, by which the next step may grow: log(e'/e) / log(h'/h) of
+ * the rejected (') and the accepted length h and error e, at most MAX_ORDER_SEEN. In stiff motion that order can be far
+ * higher than the method's. was_rejected: whether an attempt at this step was rejected, which then updates the stored
+ * order. The order decays by ORDER_DECAY with each step.
  */
 static void update_observed_order(Integrator *run, const Step *step, int was_rejected)
 {

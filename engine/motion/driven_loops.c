@@ -89,12 +89,12 @@ static double compute_loop_position_error(double h, const DrivenLoops *loops_bef
 }
 
 /*
- * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time, whose Taylor series
- * of third order is the guess. Return 0, or the number of a closure if they cannot be solved or the branch is not
- * certain.
+ * Solve the positions and the first and second rates of the driven loops at time t, from their state `loops_before` at
+ * a near time. The guess is the Taylor series of third order from there. Return 0, the number of a closure that cannot
+ * be solved, or 1 if the branch is not certain.
  *
- * The branch is certain if the Newton steps sum up to at most MAX_LOOP_DISPLACEMENT, and the positions agree with the
- * integral of the rates within LOOP_POSITION_TOL.
+ * The branch is certain if the steps of solve_loop_closures() sum up to at most MAX_LOOP_DISPLACEMENT, and the
+ * positions agree with the integral of the rates within LOOP_POSITION_TOL.
  */
 static int advance_driven_loops(double t, const DrivenLoops *loops_before, const DiscreteState *discrete,
     const Parameters *p, TreeState *tree)

@@ -5,7 +5,7 @@
  * This file owns the checks of one state; audit_state() calls them at the end of each step. methods/audit_step.c checks
  * the inside of steps. The audit changes only its own record.
  */
-#define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
+#define AUDIT_MIN_PENETRATION 4e-13      /* m: contacts with less penetration carry a negligible force */
 #define AUDIT_MAX_DEPTH 10.0       /* tolerances: allowed violation of a gap, or of a slip in its mode */
 #define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
@@ -262,12 +262,12 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
  * Return the error in m that the tolerance, rounding and the location of events at time t (s) allow for the penetration
  * of a joint, whose values there are `clearance`. Limit of the check of gaps.
  */
-static double compute_gap_limit(const Integrator *run, double t, const Clearance *clearance, int joint,
+static double compute_penetration_error_limit(const Integrator *run, double t, const Clearance *clearance, int joint,
     const Parameters *p)
 {
     const double location_error = 4.0 * (run->roots.time_resolution
         + 8.0 * DBL_EPSILON * fabs(t)) * fabs(clearance->deltadot);
-    const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
+    const double min_rounding = max_of(AUDIT_MIN_PENETRATION, 64.0 * DBL_EPSILON * get_mechanism_size(run));
     const double rounding = max_of(1e-9 * radial_clearance(p, joint), min_rounding);
     return max_of(AUDIT_MAX_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding) + location_error;
 }
@@ -275,7 +275,8 @@ static double compute_gap_limit(const Integrator *run, double t, const Clearance
 /*
  * Check the gap of each joint with play against the state of its contact, at a state with outputs `rhs`, and record
  * CHECK_gap: open contacts have no penetration, closed ones of compliant surfaces no gap, closed ones of rigid surfaces
- * neither. Values up to AUDIT_GRAZE count as zero. Called at the end of each step and at states inside selected steps.
+ * neither. Values up to AUDIT_MIN_PENETRATION count as zero. Called at the end of each step and at states inside
+ * selected steps.
  */
 static void check_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
@@ -283,10 +284,10 @@ static void check_gaps(Integrator *run, double t, const RhsOutputs *rhs, const P
         const Clearance *joint = &rhs->clearance[i];
         const double violation = !run->discrete.contact[i].closed ? joint->delta
             : is_compliant(i) ? -joint->delta : fabs(joint->delta);
-        if (violation <= AUDIT_GRAZE)
+        if (violation <= AUDIT_MIN_PENETRATION)
             record_check(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
         else
-            record_check(&run->audit, CHECK_gap, violation, compute_gap_limit(run, t, joint, i, p), t, i);
+            record_check(&run->audit, CHECK_gap, violation, compute_penetration_error_limit(run, t, joint, i, p), t, i);
     }
 }
 
@@ -379,8 +380,8 @@ static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
 
 /*
  * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
- * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
- * AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force
+ * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_CONSTRAINED none at all; slips may
+ * err by AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force
  * exceeds its static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with
  * check_rigid_forces(), and omitted at the same times.
  */

@@ -96,7 +96,7 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
  */
 static void start_audit(Integrator *run, int level, double size)
 {
-    run->audit = (Audit){.level = level, .mechanism_size = size, .random = 1u, .next_drawn_step = 2};
+    run->audit = (Audit){.level = level, .mechanism_size = size, .random = 1u, .next_audited_step = 2};
     for (int k = 0; k < N_CHECKS; k++)
         run->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }

@@ -137,8 +137,9 @@ int detect_stall(ProgressMonitor *monitor, double t, double t_end)
 }
 
 /*
- * Return how many of the next calls of detect_stall() only count steps, without a comparison. Used by runs in lanes,
- * which make these steps without the test.
+ * Return how many of the next calls of detect_stall() only count steps, without a comparison. It is the smaller of the
+ * numbers of steps before doubling.next and before the next multiple of MONITOR_STEPS; 0: the next call compares. Used
+ * by runs in lanes, which make these steps without the test.
  */
 long count_steps_before_check(const ProgressMonitor *monitor)
 {

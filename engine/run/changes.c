@@ -321,7 +321,7 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         status = ENDED;
     const int crossed_status = !status || status == ENDED ? record_crossed_events(run, values_before, p) : 0;
     const int arrival_status = !status || status == ENDED
-        ? record_arrivals_at_zero(run, &state_before, 1e-4 * run->control.h, p) : 0;
+        ? record_events_at_constraint(run, &state_before, 1e-4 * run->control.h, p) : 0;
     return crossed_status ? crossed_status : arrival_status ? arrival_status : status;
 }
 

@@ -61,8 +61,8 @@ static void restore_compression_flags(Integrator *run, const signed char *codes)
 }
 
 /*
- * Append a contact to the list that Python fetches. For an impact without duration F_peak is the impulse in N s. Return
- * 0, or CHATTERING if the list is full; the contact is then dropped.
+ * Append a copy of a contact to the list that Python fetches. Return 0, or CHATTERING if the list is full; the contact
+ * is then dropped. F_peak is a force in N, or the impulse in N s of an impact without duration.
  */
 static int append_contact(Integrator *run, const Impact *contact)
 {

@@ -119,7 +119,7 @@ static int resolve_impact(
         has_impact |= approaches;
     }
     for (int i = 0; i < N_FRICTIONS; i++)
-        run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
+        run->discrete.mode[i] = MODE_CONSTRAINED; /* without force: friction elements have no impulse */
     disable_friction(&run->discrete);
     int status = has_impact ? compute_current_delassus(run, p, &impact) : 0;
     status = !status && has_impact ? solve_complementarity(&impact, rebound_sum, impulse) : status;

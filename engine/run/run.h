@@ -107,15 +107,15 @@ typedef struct {
     int n_stored_stages;
     double node[N_STAGES], stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)];
     double min_event_value[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    /* watched event functions at equidistant points of the step (watch/dense_samples.c) */
-    double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1];
+    /* monitored event functions at equidistant points of the step (watch/dense_samples.c) */
+    double sample[AT_LEAST_ONE(N_MONITORED)][N_SAMPLES + 1];
     unsigned char is_ignored[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
     double branch_error; /* largest effect of wrong branches on the step, in tolerances; infinite: not known */
-    /* bracket of a zero of each watched function: its ends, and the values there */
-    double bracket_begin[AT_LEAST_ONE(N_WATCHED)], bracket_end[AT_LEAST_ONE(N_WATCHED)];
-    double value_at_begin[AT_LEAST_ONE(N_WATCHED)], value_at_end[AT_LEAST_ONE(N_WATCHED)];
-    double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if watched */
-    unsigned char may_be_zero[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
+    /* bracket of a zero of each monitored function: its ends, and the values there */
+    double bracket_begin[AT_LEAST_ONE(N_MONITORED)], bracket_end[AT_LEAST_ONE(N_MONITORED)];
+    double value_at_begin[AT_LEAST_ONE(N_MONITORED)], value_at_end[AT_LEAST_ONE(N_MONITORED)];
+    double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if monitored */
+    unsigned char may_be_zero[AT_LEAST_ONE(N_MONITORED)], has_zero_bracket;
     double gap_rate_range[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
     double term_range[AT_LEAST_ONE(N_TERMS)];     /* range of terms of time alone over the step; -1: unknown */
     int may_force_oscillate;                      /* whether a force may oscillate between stages (watch/forces.c) */
@@ -305,8 +305,8 @@ typedef struct {
  */
 typedef struct {
     double time_resolution; /* s: resolution of the times of events; smaller in a short run */
-    int crossed, suppressed_switch; /* last crossed switching function; not watched in the next step; -1: none */
-    double t_crossed, suppression_length; /* s: time of that crossing; step length after which it is watched again */
+    int crossed, suppressed_switch; /* last crossed switching function; not monitored in the next step; -1: none */
+    double t_crossed, suppression_length; /* s: time of that crossing; step length after which it is monitored again */
     DenseSamples samples;
 } RootFinding;
 

@@ -160,7 +160,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
     }
 }
 
-/* Return whether all n values are finite; NaN and infinities are not. */
+/* Return whether the sum of n values is finite. It is not if any value is NaN or infinite, nor if the sum overflows. */
 static int is_sum_finite(const double *values, long n)
 {
     double sum = 0.0;
@@ -173,13 +173,14 @@ static int is_sum_finite(const double *values, long n)
 #define START_RATES_TOL 1e-6 /* the same of velocities, of the largest one */
 
 /*
- * Return whether a start (q, v) has the set coordinates of the file, and the first sample y of a run differs from it by
- * rounding only. 0: not known, audit.py decides. size: of the mechanism, m.
+ * Return whether the initial state `start` (q, v) of a run has the set coordinates of the file, and the first sample y
+ * differs from it by rounding only: positions by START_TOL of the size, velocities by START_RATES_TOL of the largest
+ * rate in `start`. 0: not known, audit.py decides. size: of the mechanism, m.
  */
-static int begins_at_start(const double *y, const double *start, const Parameters *p, double size)
+static int starts_from_initial_state(const double *y, const double *start, const Parameters *p, double size)
 {
     double guess[AT_LEAST_ONE(N_GUESS)], set[AT_LEAST_ONE(N_SET + N_ECCENTRICITIES)],
-        rates[AT_LEAST_ONE(N_RATES + N_ECCENTRICITIES)], fastest = 0.0;
+        rates[AT_LEAST_ONE(N_RATES + N_ECCENTRICITIES)], largest_rate = 0.0;
     start_values(p, guess, set, rates);
     for (int i = 0; i < N_SET; i++) {
         const int k = set_coordinate[i], is_angle = k % 3 == 2;
@@ -189,11 +190,12 @@ static int begins_at_start(const double *y, const double *start, const Parameter
             return 0;
     }
     for (int k = N_Q; k < 2 * N_Q; k++)
-        fastest = max_of(fastest, fabs(start[k]));
+        largest_rate = max_of(largest_rate, fabs(start[k]));
     const double largest = max_of(size, 1.0);
-    const double far = START_TOL * size / largest, fast = START_RATES_TOL * min_of(size, 1.0) * fastest / largest;
+    const double position_tolerance = START_TOL * size / largest;
+    const double velocity_tolerance = START_RATES_TOL * min_of(size, 1.0) * largest_rate / largest;
     for (int k = 0; k < 2 * N_Q; k++)
-        if (!(fabs(y[k] - start[k]) <= (k < N_Q ? far : fast)))
+        if (!(fabs(y[k] - start[k]) <= (k < N_Q ? position_tolerance : velocity_tolerance)))
             return 0;
     return 1;
 }
@@ -240,7 +242,7 @@ int gudgeon_check_samples(long n, const double *t, const double *y, const double
         if (!is_sum_finite((const double *)&x, sizeof x / sizeof(double)) || !is_sum_finite(energy, N_ENERGY))
             return 0;
     }
-    if (limits && start && !begins_at_start(y, start, (const Parameters *)parameters, size))
+    if (limits && start && !starts_from_initial_state(y, start, (const Parameters *)parameters, size))
         return 0;
     for (long i = 0; limits && i < n_drawn; i++) {
         const double *state = y + drawn[i] * N_S;
