@@ -24,10 +24,10 @@ static long count_steps_before_scalar_code(const Integrator *run)
 static int are_end_checks_recorded(const Integrator *run)
 {
     const AuditRecord *record = run->audit.record;
-    int is_recorded = record[CHECK_position].worst >= 0.0 && record[CHECK_position].worst < 1.0
-        && (N_SWITCHES == 0 || record[CHECK_branch].worst >= 0.0);
+    int is_recorded = record[CHECK_position].max_ratio >= 0.0 && record[CHECK_position].max_ratio < 1.0
+        && (N_SWITCHES == 0 || record[CHECK_branch].max_ratio >= 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
-        is_recorded &= record[CHECK_gap].worst >= 0.0 && (has_film(i) || record[CHECK_free].worst >= 0.0);
+        is_recorded &= record[CHECK_gap].max_ratio >= 0.0 && (has_film(i) || record[CHECK_free].max_ratio >= 0.0);
     return !run->audit.level || is_recorded;
 }
 
@@ -102,7 +102,7 @@ static void get_local_step_limits(const void *integrator, const double *paramete
         local_limits->max_steps = unlimited_steps;
     if (local_limits->max_steps <= 0)
         return;
-    const double checked = max_of(run->audit.record[CHECK_position].worst, 0.0), rtol = get_audit_tolerance(run);
+    const double checked = max_of(run->audit.record[CHECK_position].max_ratio, 0.0), rtol = get_audit_tolerance(run);
     local_limits->limits.power = method->power;
     local_limits->limits.limiting_h_rho = method->limiting_h_rho;
     local_limits->limits.unstable = method->rejected_h_rho;

@@ -29,7 +29,7 @@ enum { AUDIT_HALVINGS = 30, AUDIT_POINTS_PER_STEP = 4 };
 static double compute_scaled_defect(Integrator *run, const Step *step, const double *y, const double *rate,
     const double *dy, const Parameters *p)
 {
-    const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
+    const double known = max_of(run->audit.record[CHECK_defect].max_ratio, 0.0), h = step->h;
     const int rows = has_films() ? N_X : 2 * N_X; /* check_film_forces() checks velocities with films */
     const ErrorNorm *norm = &run->norm;
     const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];

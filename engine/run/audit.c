@@ -59,12 +59,12 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
 {
     AuditRecord *record = &audit->record[check];
     const double multiple = value / max_of(limit, 1e-300);
-    if (!(multiple > record->worst) && multiple == multiple)
+    if (!(multiple > record->max_ratio) && multiple == multiple)
         return;
     *record = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, index};
     if (multiple == 0.0) /* one of many zeros: its time is irrelevant */
         *record = (AuditRecord){0.0, 0.0, -1};
-    if (!(record->worst <= AUDIT_FAILS))
+    if (!(record->max_ratio <= AUDIT_FAILS))
         audit->status = AUDITED;
 }
 
@@ -75,7 +75,7 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
  */
 static void record_check(Audit *audit, int check, double value, double limit, double t, int index)
 {
-    if (!(value <= audit->record[check].worst * limit))
+    if (!(value <= audit->record[check].max_ratio * limit))
         record_largest_violation(audit, check, value, limit, t, index);
 }
 

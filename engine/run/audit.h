@@ -8,8 +8,8 @@
 
 /* The largest violation that one check has found. */
 typedef struct {
-    double worst, t; /* multiple of the limit, < 0: not checked; s */
-    int where;       /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
+    double max_ratio, t; /* largest value/limit, < 0: not checked; its time, s */
+    int index; /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
 } AuditRecord;
 
 /*

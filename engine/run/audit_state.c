@@ -108,8 +108,8 @@ static void start_audit(Integrator *run, int level, double size)
 static void report_audit(const Integrator *run, double *multiples, double *t, int *index)
 {
     for (int k = 0; k < N_CHECKS; k++) {
-        multiples[k] = run->audit.record[k].worst;
+        multiples[k] = run->audit.record[k].max_ratio;
         t[k] = run->audit.record[k].t;
-        index[k] = run->audit.record[k].where;
+        index[k] = run->audit.record[k].index;
     }
 }

@@ -134,7 +134,7 @@ static int resolve_impact(
         const int i = impact.joint[k];
         const double u = approach_speed[k] > compute_resting_speed_limit(min_rate, p, i) ? approach_speed[k]
             : 0.0; /* 0: a resting contact */
-        const Impact listed = {run->t, run->t, u, impulse[k], run->t, i};
+        const ContactRecord listed = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
             status = append_impact(run, &listed, n_impacts_before >= N_LISTED_PASSES, !known_state.contact[i].closed);
         *energy += impulse[k] * u;

@@ -30,7 +30,7 @@ enum {
 typedef struct {
     double t_on, t_off, deltadot, F_peak, t_peak;
     int joint;
-} Impact;
+} ContactRecord;
 
 /*
  * A row of the envelope, for plots of all steps in bounded memory. A row covers `stride` successive steps; when the
@@ -170,12 +170,12 @@ typedef struct {
  * Written by: run/contacts.c, run/joint_maxima.h. Copied by: batch/lane_controlled_steps.c.
  */
 typedef struct {
-    Impact ongoing[AT_LEAST_ONE(N_CLEARANCES)];    /* contact that lasts in each joint: closed, not yet listed */
+    ContactRecord ongoing[AT_LEAST_ONE(N_CLEARANCES)]; /* contact that lasts in each joint: closed, not yet listed */
     int is_compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
     int is_rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
-    Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
-    int n_impacts, ongoing_listed;
+    ContactRecord records[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
+    int n_records, ongoing_listed;
     long onsets;
     double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
 } Contacts;

@@ -63,7 +63,7 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
         discrete->contact[i].closed = !isnan(sample[i]);
         discrete->contact[i].deltadot_minus = sample[i];
 #if N_RIGID_WITH_FRICTION
-        discrete->contact[i].smooth = 0;
+        discrete->contact[i].is_frictionless = 0;
 #endif
     }
     for (int i = 0; i < N_FRICTIONS; i++)
