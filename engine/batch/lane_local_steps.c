@@ -175,7 +175,7 @@ static void flush_lane_local_steps(
     run->choice.mean_length[0] = local_steps->mean_length[k];
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
-    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .remaining_time = local_steps->t_end[k] - run->t,
         .time_magnitude = compute_time_scale(local_steps, lanes)[k], .is_open = 1, .lane_method = METHOD_TAYLOR};
 }
 #else

@@ -155,7 +155,7 @@ static int resolve_zero_switching_functions(Model *model, const double *dx, RhsO
 {
     int status = 0, has_zero = 0;
     double x[N_Y], unused_rates[N_Y];
-    const double t = model->t, moment = 1e-9 * fmax(1e-3, fabs(t));
+    const double t = model->t, time_offset = 1e-9 * fmax(1e-3, fabs(t));
     RhsOutputs later;
     for (int k = 0; k < N_SWITCHES; k++)
         has_zero |= rhs->g[k] == 0.0;
@@ -163,8 +163,8 @@ static int resolve_zero_switching_functions(Model *model, const double *dx, RhsO
         return 0;
     memcpy(x, model->x, sizeof x);
     for (int k = 0; k < 2 * N_X; k++)
-        model->x[k] += moment * dx[k];
-    model->t = t + moment;
+        model->x[k] += time_offset * dx[k];
+    model->t = t + time_offset;
     status = evaluate_exchange_rates(model, unused_rates, &later);
     memcpy(model->x, x, sizeof x);
     model->t = t;
@@ -189,14 +189,14 @@ static int update_contacts_and_branches(Model *model)
     int status = evaluate_exchange_rates(model, dx, &rhs), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
         const Clearance *joint = &rhs.clearance[i];
-        const int touches = !isnan(model->sampled_discrete[i]);
+        const int was_touching = !isnan(model->sampled_discrete[i]);
         /* at exactly zero the rate decides */
-        const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
-        if (touches == within)
+        const int is_touching = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
+        if (was_touching == is_touching)
             continue;
         const double min_speed = min_approach_speed((const Parameters *)model->p, i);
-        model->sampled_discrete[i] = within ? fmax(joint->deltadot, min_speed) : NAN;
-        model->contact_codes[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
+        model->sampled_discrete[i] = is_touching ? fmax(joint->deltadot, min_speed) : NAN;
+        model->contact_codes[i] = is_touching ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
         status = resolve_zero_switching_functions(model, dx, &rhs);

@@ -72,7 +72,7 @@ typedef struct {
     Cancellation cancellation;
     ProgressMonitor monitor;
     Position motion, work;
-    int motion_begun, work_begun;
+    int has_motion_begun, has_work_begun;
     long n_interpolated;   /* samples that were interpolated at or near a change point */
     double t_interpolated; /* the first of them, s */
     int is_start_ill_conditioned; /* constraint equations depend on each other at the start, or nearly */

@@ -7,7 +7,7 @@
  */
 #define AUDIT_MIN_PENETRATION 4e-13      /* m: contacts with less penetration carry a negligible force */
 #define AUDIT_MAX_DEPTH 10.0       /* tolerances: allowed violation of a gap, or of a slip in its mode */
-#define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
+#define AUDIT_MIN_SPEED_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
 #define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
@@ -126,7 +126,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     }
     if (!include_velocities)
         return;
-    const double min_speed = max_of(AUDIT_REST_FRACTION * run->norm.speed_floor[0], 1e-300); /* m/s */
+    const double min_speed = max_of(AUDIT_MIN_SPEED_FRACTION * run->norm.speed_floor[0], 1e-300); /* m/s */
     const double speed_scale = max_of(max_of(max_speed[0], size * max_speed[1]), min_speed),
         half_interval = 1e-5 * size / speed_scale;
     compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);

@@ -11,10 +11,10 @@
 static void check_user_event(Integrator *run, int event, int n_events_before)
 {
     Audit *audit = &run->audit;
-    const double value_before = audit->event_before[event], value_now = run->rhs.event[event];
+    const double value_before = audit->event_before[event], value_after = run->rhs.event[event];
     const int is_end_event = audit->end_event == event
         && fabs(value_before) > AUDIT_NOISE_FRACTION * audit->event_scale[event]
-        && fabs(value_now) < AUDIT_ZERO_FRACTION * fabs(value_before) && event_direction[event] * value_before <= 0.0;
+        && fabs(value_after) < AUDIT_ZERO_FRACTION * fabs(value_before) && event_direction[event] * value_before <= 0.0;
     int is_recorded = 0;
     for (int k = n_events_before; k < run->events.n; k++)
         is_recorded |= run->events.number[k] == event;

@@ -128,20 +128,20 @@ static int compute_slips_after_impact(Integrator *run, const Delassus *impact, c
 static int compute_tangential_response(Integrator *run, const Delassus *impact, int contact, const double *base_rates,
     const RhsOutputs *rhs_base, double unit_impulse, const Parameters *p, FrictionImpulses *friction)
 {
-    double rates_pushed[N_Y], y[N_Y];
+    double rates_with_impulse[N_Y], y[N_Y];
     DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
     discrete.contact[impact->joint[contact]].tangential_force = unit_impulse;
     count_evaluations(run, 2);
-    int status = evaluate_motion_with_internal_states(run->t, run->y, &discrete, p, rates_pushed, &rhs);
+    int status = evaluate_motion_with_internal_states(run->t, run->y, &discrete, p, rates_with_impulse, &rhs);
     discrete.contact[impact->joint[contact]].tangential_force = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int i = 0; i < N_X; i++) {
-        friction->velocity[contact][i] = (rates_pushed[N_X + i] - base_rates[N_X + i]) / unit_impulse;
+        friction->velocity[contact][i] = (rates_with_impulse[N_X + i] - base_rates[N_X + i]) / unit_impulse;
         y[N_X + i] += friction->velocity[contact][i] * unit_impulse;
     }
-    status = status ? status : evaluate_motion_with_internal_states(run->t, y, &discrete, p, rates_pushed, &rhs);
+    status = status ? status : evaluate_motion_with_internal_states(run->t, y, &discrete, p, rates_with_impulse, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const int i = impact->joint[k];
         friction->gap_rate[k][contact] = (rhs.clearance[i].deltadot - rhs_base->clearance[i].deltadot) / unit_impulse;

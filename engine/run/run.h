@@ -81,7 +81,7 @@ enum {
 /* Ratio of two step lengths above which they count as equal. */
 #define EQUAL_LENGTH_RATIO (1.0 - 1e-9)
 /* Weight of the mean length of the steps of a method before the last one. */
-#define LENGTH_MEMORY 0.8
+#define MEAN_LENGTH_WEIGHT 0.8
 /* Relative step length below which a step counts as too short to advance. */
 #define SHORT_STEP_FRACTION (256.0 * MIN_STEP_FRACTION)
 
@@ -138,7 +138,7 @@ typedef struct {
 
 /* The attempts at one step until a step is accepted (methods/step_length.c). */
 typedef struct {
-    double h, first_h, time_left;    /* s: length tried now; of the first attempt; time left to the end of the run */
+    double h, first_h, remaining_time; /* s: length tried now; of the first attempt; time to the end of the run */
     double time_magnitude, rejected_h; /* s: magnitude of the times; length of the last rejected attempt */
     double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
     int is_open, lane_method, was_rejected; /* whether attempts continue; method in lanes; whether one was rejected */

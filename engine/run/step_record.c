@@ -4,8 +4,8 @@
  */
 enum {
     RECORD_ROW = N_RECORD_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
-    RECORD_PARTS = 4,             /* parts of a step, whose ends are recorded */
-    MAX_ROWS_PER_STEP = 4 * RECORD_PARTS /* largest number of rows of one step */
+    RECORD_INTERVALS = 4,             /* parts of a step, whose ends are recorded */
+    MAX_ROWS_PER_STEP = 4 * RECORD_INTERVALS /* largest number of rows of one step */
 };
 #define JUMP_OFFSET 1e-9 /* of a step: distance of the rows just before and after a jump */
 

@@ -353,7 +353,7 @@ int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, do
     signed char *codes)
 {
     Integrator *run = integrator;
-    const int count = run->events.n < capacity ? run->events.n : capacity, n_left = run->events.n - count;
+    const int count = run->events.n < capacity ? run->events.n : capacity, n_remaining = run->events.n - count;
     for (int i = 0; i < count; i++) {
         t[i] = run->events.t[i];
         event[i] = run->events.number[i];
@@ -363,15 +363,16 @@ int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, do
     memcpy(y, states->y, (size_t)count * sizeof states->y[0]);
     memcpy(discrete, states->discrete_states, (size_t)count * sizeof states->discrete_states[0]);
     memcpy(codes, states->contact_codes, (size_t)count * sizeof states->contact_codes[0]);
-    memmove(states->y, states->y + count, (size_t)n_left * sizeof states->y[0]);
+    memmove(states->y, states->y + count, (size_t)n_remaining * sizeof states->y[0]);
     memmove(states->discrete_states, states->discrete_states + count,
-        (size_t)n_left * sizeof states->discrete_states[0]);
-    memmove(states->contact_codes, states->contact_codes + count, (size_t)n_left * sizeof states->contact_codes[0]);
+        (size_t)n_remaining * sizeof states->discrete_states[0]);
+    memmove(states->contact_codes, states->contact_codes + count,
+        (size_t)n_remaining * sizeof states->contact_codes[0]);
 #else
     (void)y, (void)discrete, (void)codes;
 #endif
-    memmove(run->events.t, run->events.t + count, (size_t)n_left * sizeof run->events.t[0]);
-    memmove(run->events.number, run->events.number + count, (size_t)n_left * sizeof run->events.number[0]);
-    run->events.n = n_left;
+    memmove(run->events.t, run->events.t + count, (size_t)n_remaining * sizeof run->events.t[0]);
+    memmove(run->events.number, run->events.number + count, (size_t)n_remaining * sizeof run->events.number[0]);
+    run->events.n = n_remaining;
     return count;
 }
