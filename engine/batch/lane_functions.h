@@ -54,9 +54,9 @@ static inline Lanes lanes_mod_switching_function(Lanes a, Lanes b)
     return a;
 }
 
-/* Return slightly_above() of each lane. */
+/* Return a point slightly larger than x in each lane, for a difference quotient, as slightly_above(). */
 static inline Lanes lanes_slightly_above(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
-/* Return slightly_below() of each lane. */
+/* Return a point slightly smaller than x in each lane, for a difference quotient, as slightly_below(). */
 static inline Lanes lanes_slightly_below(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
 /*
  * Return the derivative of each lane if it is finite, else the difference quotient (value_after - value_before) /

@@ -119,8 +119,8 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     constraints(t, absolute_state, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = motion_row[i], length = row_is_length[row];
-        const double play = length ? run->norm.min_size[0] : run->norm.min_size[1];
-        const double limit = max_of(rtol * play,
+        const double min_size = length ? run->norm.min_size[0] : run->norm.min_size[1];
+        const double limit = max_of(rtol * min_size,
             AUDIT_ROUNDING * (length ? size + max_coordinate[0] : 1.0 + max_coordinate[1]));
         record_check(audit, CHECK_position, fabs(phi[row]), limit, t, row);
     }

@@ -50,11 +50,11 @@ static int ignore_negligible_switches(Integrator *run, Step *step, const Paramet
         return 0;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        const int gap_function = N_CLEARANCES + k;
-        const int is_of_law = is_continuous_switch[k] && monitored_index[gap_function] < 0 && run->control.fixed <= 0.0;
+        const int event = N_CLEARANCES + k;
+        const int is_of_law = is_continuous_switch[k] && monitored_index[event] < 0 && run->control.fixed <= 0.0;
         /* of laws only with step-size control: fixed steps have no tolerance to compare with */
         const int may_ignore = is_of_law || k == run->roots.suppressed_switch;
-        step->is_ignored[k] = may_ignore && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
+        step->is_ignored[k] = may_ignore && compute_event_value(&run->discrete, &step->rhs, event) < 0.0;
         has_ignored |= step->is_ignored[k];
     }
     if (!has_ignored)

@@ -272,7 +272,7 @@ static int classify_event_functions(void *context, double begin, double end, int
 /*
  * Return whether no monitored function can be negative between the stages of an explicit step. Bounds of the state are
  * the range of the stages, extended by a quarter; they decide most steps. A function that may be undefined in these
- * bounds or is negative at the end gives 0, unless it is held at zero within its uncertainty. uncertainties: computed
+ * bounds or is negative at the end gives 0, unless it is zero within its uncertainty. uncertainties: computed
  * when first needed. Called by bracket_first_zeros() before the dense output is bounded.
  */
 static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
