@@ -206,7 +206,8 @@ static void record_largest_eccentricity(Integrator *run, Step *step, double frac
     for (int n = 0; n < 6 && clearance_low.deltadot > 0.0 && clearance_high.deltadot < 0.0; n++) {
         const double h = (high_fraction - low_fraction) * step->h;
         double cubic_maximum;
-        const double contour_offset = clearance_low.e - get_outward_coordinate(&clearance_low); /* 0 without a contour */
+        /* 0 without a contour */
+        const double contour_offset = clearance_low.e - get_outward_coordinate(&clearance_low);
         const double s = low_fraction
             + (high_fraction - low_fraction)
                 * find_cubic_maximum(get_outward_coordinate(&clearance_low), h * clearance_low.deltadot,
