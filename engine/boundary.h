@@ -74,9 +74,10 @@ enum AuditCheck {
 #define TAYLOR_TOLERANCE_RATIO 10.0
 
 /*
- * Mode of a dry_friction element: 0 stick, -1 or 1 the sign of its slip, MODE_HELD at rest by drives or other friction.
+ * Mode of a dry_friction element: 0 stick, -1 or 1 the sign of its slip, MODE_CONSTRAINED at rest by drives or other
+ * friction.
  */
-enum FrictionMode { MODE_HELD = 2 };
+enum FrictionMode { MODE_CONSTRAINED = 2 };
 
 /* Number of events, and of contacts, at which the lists of a run count as full. */
 enum Capacity { MAX_LISTED = 256 };

@@ -21,7 +21,7 @@
 #include "watch/gaps.c"
 #include "watch/forces.c"
 #include "watch/transients.c"
-#if N_WATCHED && KNOWN_BOUNDS
+#if N_MONITORED && KNOWN_BOUNDS
 #include "watch/watched.c"
 #else
 #include "watch/dense_samples.c"

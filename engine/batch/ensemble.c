@@ -186,7 +186,7 @@ static void end_run(const Batch *batch, long i, int status, Integrator *run)
  */
 static int has_unfetched_records(const Integrator *run)
 {
-    int has_records = run->contacts.n_impacts > 0 || run->events.n > 0 || run->step_record.n > 0;
+    int has_records = run->contacts.n_records > 0 || run->events.n > 0 || run->step_record.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
         has_records = has_records || run->discrete.contact[k].closed;
     return has_records;

@@ -62,11 +62,11 @@ static LaneBits find_lanes_without_events(
  */
 static Lanes find_largest_stage_force(const LaneStep *step, int i)
 {
-    Lanes most = broadcast(0.0);
+    Lanes largest_square = broadcast(0.0);
     for (int s = 0; s < step->n_stored_stages; s++)
         if (step->node[s] > 0.0 && step->node[s] < 1.0)
-            most = lanes_max_of(most, step->stage_values[s][STAGE_FORCES + i]);
-    return lanes_sqrt(most);
+            largest_square = lanes_max_of(largest_square, step->stage_values[s][STAGE_FORCES + i]);
+    return lanes_sqrt(largest_square);
 }
 
 #if IMPLICIT_STAGES
@@ -262,8 +262,9 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
 }
 
 /*
- * Return the number of steps against the method of each lane after this step (switch_method_after_step()): 0 where it
- * does not speak against it.
+ * Return the number of successive steps, including this one, whose stiffness h rho speaks for the other method
+ * (explicit or stiff) in each lane (switch_method_after_step()): h_rho is outside min_rho..max_rho of the limits. 0
+ * where it is within.
  */
 static Lanes count_opposing_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
 {
@@ -400,7 +401,7 @@ static void flush_lane_local_steps(
     run->control.error_before = local_steps->error_before[k];
     run->control.observed_order = local_steps->observed_order[k];
     run->control.last_step = local_steps->last_step[k];
-    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .remaining_time = local_steps->t_end[k] - run->t,
         .end = local_steps->t_end[k], .time_magnitude = compute_time_scale(local_steps, lanes)[k], .is_open = 1,
         .lane_method = method, .film_error_norm = INFINITY};
 #if IMPLICIT_STAGES

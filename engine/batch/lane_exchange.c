@@ -197,7 +197,7 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
         step->gap_rate_range[i][0] = lane_step->gap_rate_range[i][0][k];
         step->gap_rate_range[i][1] = lane_step->gap_rate_range[i][1][k];
     }
-    for (int j = 0; j < 2 * N_X && N_WATCHED > 0; j++) {
+    for (int j = 0; j < 2 * N_X && N_MONITORED > 0; j++) {
         step->min_state[j] = lane_step->min_state[j][k];
         step->max_state[j] = lane_step->max_state[j][k];
     }

@@ -24,7 +24,10 @@ static int record_run_result(LaneGroup *group, int i, int result)
     return result != CALL_AGAIN;
 }
 
-/* Copy the steps that the lane of run i of the group accepted itself to that run, before it is used. */
+/*
+ * Copy the steps that the lane of run i of the group accepted itself to that run, before it is used. Nothing happens if
+ * the lane contains another run or no state.
+ */
 static void flush_lane(LaneGroup *group, int i)
 {
 #if LANE_LOCAL_STEPS

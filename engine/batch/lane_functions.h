@@ -34,13 +34,13 @@ static inline Lanes lanes_mod_of(Lanes a, Lanes b)
     return a;
 }
 /*
- * Return mod(a, b) on a frozen branch of each lane, as mod_on(): the even (1) or odd (-1) periods continued by half a
- * period; 0: not frozen.
+ * Return mod(a, b) on a frozen branch of each lane, as mod_on_branch(): the even (1) or odd (-1) periods continued by
+ * half a period; 0: not frozen.
  */
-static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes branch)
+static inline Lanes lanes_mod_on_branch(Lanes a, Lanes b, Lanes branch)
 {
     for (int k = 0; k < LANES; k++)
-        a[k] = mod_on(a[k], b[k], branch[k]);
+        a[k] = mod_on_branch(a[k], b[k], branch[k]);
     return a;
 }
 /*
@@ -54,9 +54,9 @@ static inline Lanes lanes_mod_switching_function(Lanes a, Lanes b)
     return a;
 }
 
-/* Return slightly_above() of each lane. */
+/* Return a point slightly larger than x in each lane, for a difference quotient, as slightly_above(). */
 static inline Lanes lanes_slightly_above(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
-/* Return slightly_below() of each lane. */
+/* Return a point slightly smaller than x in each lane, for a difference quotient, as slightly_below(). */
 static inline Lanes lanes_slightly_below(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
 /*
  * Return the derivative of each lane if it is finite, else the difference quotient (value_after - value_before) /
@@ -111,24 +111,24 @@ static inline Lanes lanes_from_bits(LaneWords bits) { return (Lanes)bits; }
  * Look up a table of `width` columns in each lane (a gather): return the entry of column k in the row whose number is
  * in the last seven bits of the lane.
  */
-static inline Lanes lanes_table_entries(const double *table, int width, LaneWords bits, int k)
+static inline Lanes lanes_gather_table_entries(const double *table, int width, LaneWords bits, int k)
 {
     Lanes result = {0.0};
     for (int lane = 0; lane < LANES; lane++)
         result[lane] = table[(bits[lane] & 127) * (size_t)width + (size_t)k];
     return result;
 }
-#define PARTS_REAL Lanes
-#define PARTS_BITS LaneWords
-#define PARTS_FUNCTION(name) lanes_##name
-#define PARTS_POWER(bits) __builtin_convertvector((LaneBits)(bits) >> 52, Lanes)
-#define PARTS_ENTRY(table, bits, k) lanes_table_entries(table[0], sizeof table[0] / sizeof(double), bits, k)
-#include "../scene/parts.h"
-#undef PARTS_REAL
-#undef PARTS_BITS
-#undef PARTS_FUNCTION
-#undef PARTS_POWER
-#undef PARTS_ENTRY
+#define NUMBER_TYPE Lanes
+#define NUMBER_BITS LaneWords
+#define TYPED_NAME(name) lanes_##name
+#define EXPONENT_OF(bits) __builtin_convertvector((LaneBits)(bits) >> 52, Lanes)
+#define TABLE_ENTRY(table, bits, k) lanes_gather_table_entries(table[0], sizeof table[0] / sizeof(double), bits, k)
+#include "../scene/elementary_functions.h"
+#undef NUMBER_TYPE
+#undef NUMBER_BITS
+#undef TYPED_NAME
+#undef EXPONENT_OF
+#undef TABLE_ENTRY
 
 /* Return sin x of each lane; lanes with |x| beyond TURN_LIMIT are computed by the C library. */
 static inline Lanes lanes_sin(Lanes x)

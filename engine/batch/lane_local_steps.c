@@ -4,7 +4,8 @@
  * Such a step is called lane-local: it changes the vectors of its lane and not yet its run. Steps of different lanes
  * have different lengths in any case. Limits of these steps: batch/local_step_limits.c.
  */
-#define LANE_LOCAL_STEPS (!(LANE_SERIES && N_LOOPS) && !N_USER_EVENTS && !N_WATCHED && !N_TRANSIENTS && !DRIVE_IMPULSES)
+#define LANE_LOCAL_STEPS \
+    (!(LANE_SERIES && N_LOOPS) && !N_USER_EVENTS && !N_MONITORED && !N_TRANSIENTS && !DRIVE_IMPULSES)
 
 #if LANE_LOCAL_STEPS
 #include "../scalar_simd/error_weights.h"
@@ -54,11 +55,14 @@ static LaneBits find_unsampled_steps(
         & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
 }
 
-/* Return the length h (s) of the next step in each lane, or the rest of the run if that is shorter. */
+/*
+ * Return the length h (s) of the next step in each lane. It is the remaining time of the run where h is longer, or
+ * shorter by less than the factor EQUAL_LENGTH_RATIO.
+ */
 static Lanes limit_length_by_end(const LaneLocalSteps *local_steps, const LaneIntegrator *lanes, Lanes h)
 {
-    const Lanes left = local_steps->t_end - lanes->t;
-    return select_value(h > left * EQUAL_LENGTH_RATIO, left, h);
+    const Lanes remaining_time = local_steps->t_end - lanes->t;
+    return select_value(h > remaining_time * EQUAL_LENGTH_RATIO, remaining_time, h);
 }
 
 /* Count the steps of the mask `accepted`, and clear may_accept in lanes with max_local_steps accepted steps. */
@@ -171,7 +175,7 @@ static void flush_lane_local_steps(
     run->choice.mean_length[0] = local_steps->mean_length[k];
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
-    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .remaining_time = local_steps->t_end[k] - run->t,
         .time_magnitude = compute_time_scale(local_steps, lanes)[k], .is_open = 1, .lane_method = METHOD_TAYLOR};
 }
 #else

@@ -11,7 +11,7 @@ static void discard_stages(LaneStep *step)
     step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->min_event_value[k] = broadcast(INFINITY);
-    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+    for (int k = 0; k < 2 * N_X && N_MONITORED > 0; k++) {
         step->min_state[k] = broadcast(INFINITY);
         step->max_state[k] = broadcast(-INFINITY);
     }
@@ -110,11 +110,11 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
 
 /*
  * Extend the range of coordinates and velocities in the step by those of a stage y, in all lanes; only if functions are
- * watched.
+ * monitored.
  */
 static void extend_stage_range(LaneStep *step, const Lanes *y)
 {
-    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+    for (int k = 0; k < 2 * N_X && N_MONITORED > 0; k++) {
         step->min_state[k] = lanes_min_of(step->min_state[k], y[k]);
         step->max_state[k] = lanes_max_of(step->max_state[k], y[k]);
     }
@@ -174,7 +174,7 @@ static void count_stage_evaluations(LaneIntegrator *run, LaneBits is_active, int
 
 /*
  * Begin an iteration of n stages: count n evaluations, and reset the extrema over the stages in the active lanes. These
- * are the lowest event functions, the ranges of the gap rates, and that of the state if functions are watched. The
+ * are the lowest event functions, the ranges of the gap rates, and that of the state if functions are monitored. The
  * number of stored stages becomes 0; stored values of inactive lanes remain.
  */
 static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_active, int n)
@@ -183,7 +183,7 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
     step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->min_event_value[k] = select_value(is_active, broadcast(INFINITY), step->min_event_value[k]);
-    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+    for (int k = 0; k < 2 * N_X && N_MONITORED > 0; k++) {
         step->min_state[k] = select_value(is_active, broadcast(INFINITY), step->min_state[k]);
         step->max_state[k] = select_value(is_active, broadcast(-INFINITY), step->max_state[k]);
     }
@@ -215,7 +215,7 @@ static void record_newton_stage(LaneIntegrator *run, LaneStep *step, LaneBits is
         step->gap_rate_range[i][0] = lanes_min_of(step->gap_rate_range[i][0], *rate);
         step->gap_rate_range[i][1] = lanes_max_of(step->gap_rate_range[i][1], *rate);
     }
-    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+    for (int k = 0; k < 2 * N_X && N_MONITORED > 0; k++) {
         step->min_state[k] = select_value(is_active, lanes_min_of(step->min_state[k], y[k]), step->min_state[k]);
         step->max_state[k] = select_value(is_active, lanes_max_of(step->max_state[k], y[k]), step->max_state[k]);
     }

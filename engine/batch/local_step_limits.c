@@ -5,28 +5,29 @@
  */
 
 /*
- * Return the number of steps that a run may make in the lanes without a call: until its next progress check or audited
- * step. It is 0 if each step is recorded or audited.
+ * Return the number of steps that a run may make in the lanes without a call of the scalar code: until its next
+ * progress check or audited step. It is 0 if each step is recorded (step record, envelope) or audited (AUDIT_FULL).
  */
-static long count_steps_before_call(const Integrator *run)
+static long count_steps_before_scalar_code(const Integrator *run)
 {
     const long steps =
         run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
-    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.next_drawn_step - run->counts.steps;
+    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.next_audited_step - run->counts.steps;
     return run->audit.level && unchecked_steps < steps ? (unchecked_steps > 0 ? unchecked_steps : 0) : steps;
 }
 
 /*
- * Return whether a step without a violation leaves the record of the audit as it is: all checks of the ends of steps
- * are recorded. Their values are then 0, except the residual of the closures, for which the limit of the lanes is set.
+ * Return whether a step without a violation leaves the record of the audit as it is: there is no audit, or all checks
+ * of the ends of steps are recorded. Their values are then 0, except the residual of the closures, for which the limit
+ * of the lanes is set; its recorded value must be within its limit.
  */
 static int are_end_checks_recorded(const Integrator *run)
 {
     const AuditRecord *record = run->audit.record;
-    int is_recorded = record[CHECK_position].worst >= 0.0 && record[CHECK_position].worst < 1.0
-        && (N_SWITCHES == 0 || record[CHECK_branch].worst >= 0.0);
+    int is_recorded = record[CHECK_position].max_ratio >= 0.0 && record[CHECK_position].max_ratio < 1.0
+        && (N_SWITCHES == 0 || record[CHECK_branch].max_ratio >= 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
-        is_recorded &= record[CHECK_gap].worst >= 0.0 && (has_film(i) || record[CHECK_free].worst >= 0.0);
+        is_recorded &= record[CHECK_gap].max_ratio >= 0.0 && (has_film(i) || record[CHECK_free].max_ratio >= 0.0);
     return !run->audit.level || is_recorded;
 }
 
@@ -65,14 +66,15 @@ static long count_steps_before_comparison(const Integrator *run)
 
 /*
  * Return the number of the next steps that the audit does not measure however long they are, because it has measured
- * enough (audit_step()). 0: long steps are measured.
+ * enough (audit_step()). 0: long steps are measured. LONG_MAX without an audit, or if that number exceeds 1e9.
  */
-static long count_steps_of_any_length(const Integrator *run)
+static long count_steps_without_length_check(const Integrator *run)
 {
     const double first_measured =
         ((double)run->audit.n_long_steps + 1.0) * compute_mean_check_interval(run->choice.method);
-    const double left = first_measured - (double)run->counts.steps;
-    return !run->audit.level || left > 1e9 ? LONG_MAX : left >= 0.0 ? (long)left + 1 : 0;
+    const double remaining_steps = first_measured - (double)run->counts.steps;
+    return !run->audit.level || remaining_steps > 1e9 ? LONG_MAX
+        : remaining_steps >= 0.0 ? (long)remaining_steps + 1 : 0;
 }
 
 /*
@@ -90,17 +92,17 @@ static void get_local_step_limits(const void *integrator, const double *paramete
     if (run->control.fixed > 0.0 || run->control.attempt.was_rejected)
         return;
     if (run->control.attempt.lane_method == METHOD_TAYLOR)
-        local_limits->max_steps = count_steps_before_call(run);
+        local_limits->max_steps = count_steps_before_scalar_code(run);
     if (run->control.attempt.lane_method == METHOD_TAYLOR || !is_ordinary_step(run) || !are_end_checks_recorded(run))
         return;
-    const long steps = count_steps_before_call(run), compared_steps = count_steps_before_comparison(run);
-    const long unlimited_steps = count_steps_of_any_length(run);
+    const long steps = count_steps_before_scalar_code(run), compared_steps = count_steps_before_comparison(run);
+    const long unlimited_steps = count_steps_without_length_check(run);
     local_limits->max_steps = steps < compared_steps ? steps : compared_steps;
     if (unlimited_steps > 0 && unlimited_steps < local_limits->max_steps)
         local_limits->max_steps = unlimited_steps;
     if (local_limits->max_steps <= 0)
         return;
-    const double checked = max_of(run->audit.record[CHECK_position].worst, 0.0), rtol = get_audit_tolerance(run);
+    const double checked = max_of(run->audit.record[CHECK_position].max_ratio, 0.0), rtol = get_audit_tolerance(run);
     local_limits->limits.power = method->power;
     local_limits->limits.limiting_h_rho = method->limiting_h_rho;
     local_limits->limits.unstable = method->rejected_h_rho;

@@ -91,7 +91,7 @@ static int set_initial_nominals(Model *model, const double *min_scale)
 }
 
 /* Set the discrete state of an instance (model->discrete) from the one of its last sample (model->sampled_discrete). */
-static void read_sampled_discrete_state(Model *model)
+static void set_discrete_state_from_sample(Model *model)
 {
     read_discrete_state(model->sampled_discrete, &model->discrete);
 }
@@ -105,7 +105,7 @@ static void synchronize_states(Model *model)
     if (model->exchange) {
         convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
     } else {
-        read_sampled_discrete_state(model);
+        set_discrete_state_from_sample(model);
         convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
     }
 }
@@ -151,11 +151,11 @@ static double get_event_indicator(const Model *model, const RhsOutputs *rhs, int
  * least 1e-12 s). Return 0 or a status. dx: rates of the current state, along which the state is extrapolated. The
  * state and time of the instance are restored.
  */
-static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs)
+static int resolve_zero_switching_functions(Model *model, const double *dx, RhsOutputs *rhs)
 {
     int status = 0, has_zero = 0;
     double x[N_Y], unused_rates[N_Y];
-    const double t = model->t, moment = 1e-9 * fmax(1e-3, fabs(t));
+    const double t = model->t, time_offset = 1e-9 * fmax(1e-3, fabs(t));
     RhsOutputs later;
     for (int k = 0; k < N_SWITCHES; k++)
         has_zero |= rhs->g[k] == 0.0;
@@ -163,8 +163,8 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
         return 0;
     memcpy(x, model->x, sizeof x);
     for (int k = 0; k < 2 * N_X; k++)
-        model->x[k] += moment * dx[k];
-    model->t = t + moment;
+        model->x[k] += time_offset * dx[k];
+    model->t = t + time_offset;
     status = evaluate_exchange_rates(model, unused_rates, &later);
     memcpy(model->x, x, sizeof x);
     model->t = t;
@@ -175,9 +175,12 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
 }
 
 /*
- * Update contacts and branches of an instance at an event, including branches that change as a consequence, in up to
- * six passes. Return 0 or a status. A contact is closed where the penetration is positive, or zero and not decreasing;
- * its approach speed is stored at an onset. Contacts and branches are then frozen.
+ * Compute the new discrete states of an instance at an event (event update of FMI): contacts once, then branches.
+ * Return 0 or a status.
+ *
+ * A contact is closed where the penetration is positive, or zero and not decreasing; its approach speed is stored at an
+ * onset. The contact code becomes CODE_IMPACT or CODE_FREE. Branches that change as a consequence are updated in up to
+ * six passes (event iteration). Contacts and branches are then frozen.
  */
 static int update_contacts_and_branches(Model *model)
 {
@@ -186,20 +189,20 @@ static int update_contacts_and_branches(Model *model)
     int status = evaluate_exchange_rates(model, dx, &rhs), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
         const Clearance *joint = &rhs.clearance[i];
-        const int touches = !isnan(model->sampled_discrete[i]);
+        const int was_touching = !isnan(model->sampled_discrete[i]);
         /* at exactly zero the rate decides */
-        const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
-        if (touches == within)
+        const int is_touching = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
+        if (was_touching == is_touching)
             continue;
         const double min_speed = min_approach_speed((const Parameters *)model->p, i);
-        model->sampled_discrete[i] = within ? fmax(joint->deltadot, min_speed) : NAN;
-        model->contact_codes[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
+        model->sampled_discrete[i] = is_touching ? fmax(joint->deltadot, min_speed) : NAN;
+        model->contact_codes[i] = is_touching ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
-        status = resolve_zero_branches(model, dx, &rhs);
+        status = resolve_zero_switching_functions(model, dx, &rhs);
     for (int k = 0; k < N_SWITCHES && !status; k++)
         model->discrete.branch[k] = rhs.g[k] < 0.0 ? -1.0 : 1.0;
-    read_sampled_discrete_state(model);
+    set_discrete_state_from_sample(model);
     model->discrete.is_frozen = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         status = evaluate_exchange_rates(model, dx, &rhs);

@@ -165,7 +165,7 @@ static fmi3Status begin_instance_run(Model *model)
     model->run = calloc(1, model->size);
     if (!model->run)
         return log_error_with_status(model, "out of memory", 0);
-    gudgeon_kinematic_begin(model->run, FMU_REACH, size, model->t_end, NULL, NULL, INFINITY);
+    gudgeon_kinematic_begin(model->run, FMU_MAX_CORRECTION, size, model->t_end, NULL, NULL, INFINITY);
 #endif
     model->has_begun = 1;
     model->outputs_outdated = 1;

@@ -65,11 +65,11 @@ static int compute_branch_nodes(KinematicRun *run, double t, double d, const Pos
 
 /*
  * Return the value at the middle time of the polynomial (Lagrange) through one component of the first n nodes on either
- * side. first: address of that component in node[0]; in the other nodes it has the same offset.
+ * side. component: address of that component in node[0]; in the other nodes it has the same offset.
  */
-static double interpolate_at_middle(const Position *node, int n, const double *first)
+static double interpolate_at_middle(const Position *node, int n, const double *component)
 {
-    const size_t offset = (size_t)((const char *)first - (const char *)node);
+    const size_t offset = (size_t)((const char *)component - (const char *)node);
     double sum = 0.0;
     for (int j = 0; j < 2 * n; j++)
         sum += compute_lagrange_weight(n, j / 2 + 1) * *(const double *)((const char *)&node[j] + offset);

@@ -126,7 +126,10 @@ static int accept_kinematic_step(KinematicRun *run)
     return status;
 }
 
-/* Make one step of a run towards its next sample, and add its works if they are requested. Return 0 or a status. */
+/*
+ * Make one step of a run towards its next sample, add its works if they are requested, and accept it by
+ * accept_kinematic_step() (counts, sample, progress). Return 0 or a status.
+ */
 static int advance_run(KinematicRun *run)
 {
     const Position before = run->motion;

@@ -8,17 +8,19 @@
 #define MIN_PART_FRACTION 1.5e-11 /* of a step: 36 halvings */
 #define MAX_UNCERTAINTY_RATIO 1e4 /* uncertainties: error of bounds over a cubic */
 
-/* A position with the values of event functions and, if has_error, their uncertainties. */
+enum { FIRST_USER_EVENT = N_MONITORED - N_USER_EVENTS }; /* number of user event 0 among the monitored functions */
+
+/* A position with the values of event functions and, if has_uncertainty, the uncertainties of monitored functions. */
 typedef struct {
     Position position;
-    double event[N_USER_EVENTS], error[N_WATCHED];
-    int has_error;
+    double event[N_USER_EVENTS], uncertainty[N_MONITORED];
+    int has_uncertainty;
 } SampledPosition;
 
 /*
  * Evaluate the user-defined event functions at the position of a sample into sample->event, by solving the
  * accelerations. A failure of that solution is ignored, because it was reported before. The uncertainties of the sample
- * become invalid (has_error = 0).
+ * become invalid (has_uncertainty = 0).
  */
 static void evaluate_sample_events(KinematicRun *run, SampledPosition *sample)
 {
@@ -26,7 +28,7 @@ static void evaluate_sample_events(KinematicRun *run, SampledPosition *sample)
     double a[N_Q];
     (void)solve_accelerations(run, &sample->position, a, &rhs); /* a failure was reported before */
     memcpy(sample->event, rhs.event, sizeof sample->event);
-    sample->has_error = 0;
+    sample->has_uncertainty = 0;
 }
 
 #if POSITIONS_IN_TREE
@@ -97,17 +99,19 @@ static void perturb_position(const KinematicRun *run, const Position *position, 
 
 /*
  * Return by how much rounding errors of positions and velocities change event function i at a sample; 0 where they
- * include a pole. The first call for a sample estimates and stores the uncertainties of all functions; later calls
- * return the stored ones (has_error). Four positions, perturbed with the masks 0, 1, 2 and 4 of perturb_position(), are
- * compared with the sample; those that cannot be solved are left out. Bounds of the functions over the sum of the
- * differences give the uncertainties.
+ * include a pole. The first call for a sample estimates and stores the uncertainties of all monitored functions; later
+ * calls return the stored ones (has_uncertainty).
+ *
+ * Four positions, perturbed with the masks 0, 1, 2 and 4 of perturb_position(), are compared with the sample; those
+ * that cannot be solved are left out. The errors are the sums of the differences; ACCUMULATED_ULPS roundings of the
+ * largest speed are added to those of velocities. Bounds of the functions over these errors give the uncertainties.
  */
 static double estimate_event_uncertainty(const KinematicRun *run, SampledPosition *sample, int i)
 {
     const Position *position = &sample->position;
     double q_error[N_Q] = {0.0}, v_error[N_Q] = {0.0}, speed[2];
-    if (sample->has_error)
-        return sample->error[N_WATCHED - N_USER_EVENTS + i];
+    if (sample->has_uncertainty)
+        return sample->uncertainty[FIRST_USER_EVENT + i];
     for (int mask = 0; mask < 8; mask = mask ? 2 * mask : 1) {
         Position perturbed;
         perturb_position(run, position, mask, &perturbed);
@@ -125,9 +129,9 @@ static double estimate_event_uncertainty(const KinematicRun *run, SampledPositio
     for (int k = 0; k < N_Q; k++)
         v_error[k] += ACCUMULATED_ULPS * DBL_EPSILON * speed[k % 3 == 2];
     estimate_error_by_bounds(position->t, position->q, position->v, q_error, v_error, N_Q, &(DiscreteState){0}, run->p,
-        sample->error);
-    sample->has_error = 1;
-    return sample->error[N_WATCHED - N_USER_EVENTS + i];
+        sample->uncertainty);
+    sample->has_uncertainty = 1;
+    return sample->uncertainty[FIRST_USER_EVENT + i];
 }
 
 /*
@@ -323,12 +327,12 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 {
     const SampledPosition *a = &search->begin;
     const double h = b->position.t - a->position.t;
-    Interval q[N_Q], v[N_Q], out[N_WATCHED];
+    Interval q[N_Q], v[N_Q], out[N_MONITORED];
     bound_motion(&a->position, &b->position, q, v);
-    bound_watched_functions((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
+    bound_monitored_functions((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
         search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        const Interval f = out[N_WATCHED - N_USER_EVENTS + i];
+        const Interval f = out[FIRST_USER_EVENT + i];
         const double sign = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == search->h)
             search->max_bound[i] = max_of(-f.lo, f.hi);

@@ -23,7 +23,7 @@ void gudgeon_kinematic_begin(
 }
 
 /* Let the next call of gudgeon_kinematic() begin a new motion from its row 0, instead of resuming the old one. */
-void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->motion_begun = 0; }
+void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->has_motion_begun = 0; }
 
 /*
  * Return the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). time_advance:
@@ -34,7 +34,7 @@ void gudgeon_kinematic_progress(const void *integrator, double *t, double *time_
 {
     const KinematicRun *run = integrator;
     t[0] = run->motion.t;
-    t[1] = run->work_begun ? run->work.t : NAN;
+    t[1] = run->has_work_begun ? run->work.t : NAN;
     *time_advance = run->monitor.gain;
     steps[0] = MONITOR_STEPS;
     steps[1] = run->monitor.slowdown;
@@ -192,7 +192,8 @@ static int make_step(KinematicRun *run, StepLength *step_length, double t1, Posi
         if (is_near)
             error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error
-            && (step_length->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
+            && (step_length->halvings > MAX_HALVINGS_FOR_TRANSIENT
+                || !has_hidden_transient(position->t, next, run->p))) {
             *position = next_position;
             /* the error is proportional to h cubed */
             if (step_length->halvings > 0 && error < STEP_DOUBLING_ERROR * max_error) {
@@ -254,12 +255,12 @@ int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p
     Position *position = &run->motion;
     run->p = (const Parameters *)parameters;
     *done = 0;
-    for (long i = run->motion_begun; i <= n; i++) {
+    for (long i = run->has_motion_begun; i <= n; i++) {
         const int status = i > 0 ? follow_motion_to(run, t[i], position, steps)
             : set_initial_position(run, t[0], q, v, position);
         if (status)
             return status;
-        run->motion_begun = 1;
+        run->has_motion_begun = 1;
         accumulate_sample_statistics(run, t[i], position, phi_max, phi_dot_max);
         if (i > 0) {
             memcpy(q + i * N_Q, position->q, sizeof position->q);

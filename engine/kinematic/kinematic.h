@@ -12,7 +12,7 @@ enum { N_HIGHER = 3 }; /* terms of the third to fifth order */
  * Newton iterations; halvings of a step; halvings of a step at velocity jumps, for its works; halvings of a step up to
  * which it is tested for transients.
  */
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, MAX_HALVINGS_FOR_TRANSIENT = 30 };
 #define MAX_SECOND_RATE_DISPLACEMENT 0.05 /* rad, or fraction of the size: largest effect of second rates on a guess */
 #define MAX_HIGHER_ORDER_DISPLACEMENT 1e-3      /* the same: largest effect of terms of higher order */
 #define MIN_PASS_CORRECTION 1e3   /* in DBL_EPSILON of the largest angle: larger last corrections are ill-conditioned */
@@ -72,7 +72,7 @@ typedef struct {
     Cancellation cancellation;
     ProgressMonitor monitor;
     Position motion, work;
-    int motion_begun, work_begun;
+    int has_motion_begun, has_work_begun;
     long n_interpolated;   /* samples that were interpolated at or near a change point */
     double t_interpolated; /* the first of them, s */
     int is_start_ill_conditioned; /* constraint equations depend on each other at the start, or nearly */

@@ -18,7 +18,10 @@ static inline Lanes get_larger_or_nan(Lanes largest, Lanes value)
     return select_value((value > largest) | (value != value), value, largest);
 }
 
-/* Return the maximum norm of a change or rate of q (N_Q) as an angle, as compute_angle_norm() of a single run. */
+/*
+ * Return the maximum norm of a change or rate of q (N_Q) as an angle, rad or rad/s, in each lane; NaN is propagated.
+ * Lengths are divided by the mechanism's size `extent` (m). The same as compute_angle_norm() of a single run.
+ */
 static Lanes compute_angle_norm(const Lanes *change, Lanes extent)
 {
     Lanes largest = broadcast(0.0);

@@ -14,14 +14,14 @@ enum { BLOCK_ROWS = 16 };
  * next check of progress. Maxima and extremes are those of the samples so far (RunSamples). `positions` are the current
  * one and memory for the next one.
  *
- * Steps in which all runs reach their next samples are `uniform`: n_uniform of them, limit at most, are not yet counted
- * in the runs. Their series, after the largest |a|, are the columns of `block`.
+ * Steps in which all runs reach their next samples are in lockstep: n_lockstep of them, limit at most, are not yet
+ * counted in the runs. Their series, after the largest |a|, are the columns of `block`.
  */
 typedef struct {
     const KinematicBatch *batch;
     const KinematicRunFunctions *scalar_functions;
     KinematicRun *run[LANES];
-    long index[LANES], next_state[LANES], steps_before_check[LANES], n_uniform, limit;
+    long index[LANES], next_state[LANES], steps_before_check[LANES], n_lockstep, limit;
     LaneParameters p;
     LanePosition positions[2], *position, *next;
     LaneBits has_run, are_finite;
@@ -198,13 +198,13 @@ static void copy_lane_samples(const RunLanes *lanes, int k, long n)
 }
 
 /*
- * Add the n_uniform steps that all lanes made together to the counts of their runs, copy their samples from the block,
- * and reset n_uniform.
+ * Add the n_lockstep steps that all lanes made together to the counts of their runs, copy their samples from the block,
+ * and reset n_lockstep.
  */
-static void count_uniform_steps(RunLanes *lanes)
+static void count_lockstep_steps(RunLanes *lanes)
 {
-    const long n = lanes->n_uniform;
-    lanes->n_uniform = 0;
+    const long n = lanes->n_lockstep;
+    lanes->n_lockstep = 0;
     for (int k = 0; k < LANES && n; k++) {
         if (lanes->index[k] < 0)
             continue;
@@ -217,11 +217,11 @@ static void count_uniform_steps(RunLanes *lanes)
 }
 
 /*
- * Return how many uniform steps (one step to one sample in all lanes) may be made before the runs must be treated one
- * by one, BLOCK_ROWS at most. The limits are a stored state, a check of progress and the last sample; 0 if a step is
- * halved.
+ * Return how many steps in lockstep (one step to one sample in all lanes) may be made before the runs must be treated
+ * one by one, BLOCK_ROWS at most. The limits are a stored state, a check of progress and the last sample; 0 if a step
+ * is halved.
  */
-static long find_uniform_limit(const RunLanes *lanes)
+static long find_lockstep_limit(const RunLanes *lanes)
 {
     long limit = BLOCK_ROWS;
     for (int k = 0; k < LANES; k++) {
@@ -241,13 +241,13 @@ static long find_uniform_limit(const RunLanes *lanes)
  * Return the time of the sample after the next one in each lane; at the end of a run, that of its last sample; in a
  * lane without a run, t1.
  */
-static Lanes get_following_times(const RunLanes *lanes)
+static Lanes get_second_next_sample_times(const RunLanes *lanes)
 {
     Lanes t = lanes->t1;
     for (int k = 0; k < LANES; k++) {
         const RunSamples *samples = &lanes->run[k]->samples;
-        const long following = samples->done + lanes->n_uniform + 1;
-        t[k] = lanes->index[k] < 0 ? t[k] : samples->t[following < samples->n ? following : samples->n - 1];
+        const long second_next = samples->done + lanes->n_lockstep + 1;
+        t[k] = lanes->index[k] < 0 ? t[k] : samples->t[second_next < samples->n ? second_next : samples->n - 1];
     }
     return t;
 }
@@ -267,8 +267,9 @@ static int has_all_samples(const RunLanes *lanes, int k)
 }
 
 /*
- * Begin the next run in lane k if the lane is free; *next counts the n runs in `indices`. Runs that fail or end with
- * their first sample are ended at once, and the following one is tried. No run begins if the batch is ending.
+ * Begin the next run in lane k if the lane is free; *next counts the n runs in `indices`. Runs that have begun before
+ * (phase not NEW) are skipped. Runs that fail or end with their first sample are ended at once, and the following one
+ * is tried. No run begins if the batch is ending.
  */
 static void begin_next_run_in_lane(RunLanes *lanes, int k, long n, const long *indices, long *next)
 {
@@ -369,15 +370,15 @@ static void accept_next_positions(RunLanes *lanes, LaneBits is_accepted)
 }
 
 /*
- * Complete a step that is not uniform (some run is not accepted or reaches no sample): count earlier uniform steps,
- * accept positions, store samples, and complete the step of each run. The arguments are masks of lanes. Irregular steps
- * are made by the scalar code; lanes neither accepted nor irregular are rejected. may_double: the next step may have
- * twice the length. Lanes without a run are skipped.
+ * Complete a step that is not in lockstep (some run is not accepted or reaches no sample): count earlier steps in
+ * lockstep, accept positions, store samples, and complete the step of each run. The arguments are masks of lanes.
+ * Irregular steps are made by the scalar code; lanes neither accepted nor irregular are rejected. may_double: the next
+ * step may have twice the length. Lanes without a run are skipped.
  */
 static void complete_lane_steps(RunLanes *lanes, LaneBits is_accepted, LaneBits is_irregular, LaneBits is_sample,
     LaneBits may_double)
 {
-    count_uniform_steps(lanes);
+    count_lockstep_steps(lanes);
     accept_next_positions(lanes, is_accepted);
     if (any_of(is_sample))
         add_lane_samples(lanes, is_sample, 0);
@@ -388,8 +389,10 @@ static void complete_lane_steps(RunLanes *lanes, LaneBits is_accepted, LaneBits 
 }
 
 /*
- * Try one step in all lanes, and complete it. If all runs reach their next sample (a uniform step), their counts are
- * updated later, together, in count_uniform_steps(); else complete_lane_steps() treats each run.
+ * Try one step in all lanes, and complete it. A step is accepted if its Newton correction and trapezoidal error are
+ * small and it hides no transient; works are integrated over accepted steps if requested. If all runs reach their next
+ * sample (a step in lockstep), their counts are updated later, together, in count_lockstep_steps(): at the latest after
+ * lanes->limit steps. Else complete_lane_steps() treats each run.
  */
 static void advance_run_lanes(RunLanes *lanes)
 {
@@ -397,10 +400,10 @@ static void advance_run_lanes(RunLanes *lanes)
     const double max_correction = batch->max_correction, max_error = MAX_STEP_ERROR * max_correction;
     const LanePosition *const position = lanes->position;
     LanePosition *const next = lanes->next;
-    if (!lanes->n_uniform)
-        lanes->limit = find_uniform_limit(lanes);
+    if (!lanes->n_lockstep)
+        lanes->limit = find_lockstep_limit(lanes);
     const Lanes sum = position->t + lanes->h, t = select_value(sum < lanes->t1, sum, lanes->t1);
-    const Lanes following = get_following_times(lanes);
+    const Lanes second_next_times = get_second_next_sample_times(lanes);
     Lanes correction;
     LaneBits is_irregular =
         ~(t > position->t) | solve_lane_positions(&lanes->p, lanes->extent, t, position, next, &correction);
@@ -408,7 +411,8 @@ static void advance_run_lanes(RunLanes *lanes)
     const Lanes error = compute_trapezoidal_error(position, next, lanes->extent);
     LaneBits is_accepted = ~is_irregular & (correction <= max_correction) & (error <= max_error);
     for (int k = 0; N_TRANSIENTS && k < LANES; k++)
-        if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.step_length.halvings <= PULSE_HALVINGS
+        if (lanes->index[k] >= 0 && is_accepted[k]
+            && lanes->run[k]->samples.step_length.halvings <= MAX_HALVINGS_FOR_TRANSIENT
             && lanes->scalar_functions->has_transient(position->t[k], t[k], lanes->run[k]->p))
             is_accepted[k] = 0;
     if (batch->has_works && any_of(is_accepted))
@@ -416,16 +420,16 @@ static void advance_run_lanes(RunLanes *lanes)
             & integrate_lane_works(&lanes->p, lanes->extent, position, next, is_accepted, lanes->work);
     is_accepted &= ~is_irregular;
     const LaneBits is_sample = is_accepted & ~(t < lanes->t1) & lanes->has_run;
-    if (lanes->n_uniform >= lanes->limit || any_of(lanes->has_run & ~is_sample)) {
+    if (lanes->n_lockstep >= lanes->limit || any_of(lanes->has_run & ~is_sample)) {
         complete_lane_steps(lanes, is_accepted, is_irregular, is_sample, error < STEP_DOUBLING_ERROR * max_error);
         return;
     }
     accept_next_positions(lanes, is_accepted);
-    add_lane_samples(lanes, is_sample, lanes->n_uniform++);
-    lanes->t1 = following;
-    lanes->h = following - t;
-    if (lanes->n_uniform == lanes->limit)
-        count_uniform_steps(lanes);
+    add_lane_samples(lanes, is_sample, lanes->n_lockstep++);
+    lanes->t1 = second_next_times;
+    lanes->h = second_next_times - t;
+    if (lanes->n_lockstep == lanes->limit)
+        count_lockstep_steps(lanes);
 }
 
 /* Return the number of lanes with a run. */
@@ -464,7 +468,7 @@ void gudgeon_kinematic_lanes(
         if (count_active_lanes(&lanes) > 1 && !*lanes.batch->ending)
             advance_run_lanes(&lanes);
     } while ((count_active_lanes(&lanes) > 1 || next < n) && !*lanes.batch->ending);
-    count_uniform_steps(&lanes);
+    count_lockstep_steps(&lanes);
     for (int k = 0; k < LANES; k++) {
         int status = 0;
         if (lanes.index[k] < 0)

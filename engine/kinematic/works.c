@@ -129,7 +129,7 @@ int gudgeon_kinematic_works(void *integrator, long n, const double *t, const dou
     Position position = run->work;
     run->p = (const Parameters *)parameters;
     *done = 0;
-    int status = run->work_begun ? 0 : set_initial_position(run, t[0], q, v, &position);
+    int status = run->has_work_begun ? 0 : set_initial_position(run, t[0], q, v, &position);
     for (long i = 0; i < n && !status; i++) {
         StepLength step_length = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
@@ -144,7 +144,7 @@ int gudgeon_kinematic_works(void *integrator, long n, const double *t, const dou
         *done = i + !status;
     }
     run->work = position;
-    run->work_begun = 1;
+    run->has_work_begun = 1;
     if (status == NOT_FINITE)
         run->work.t = work[(*done + 1) * N_WORK];
     return status;

@@ -119,8 +119,8 @@ static int store_samples_of_step(Integrator *run, Step *step, double t_new, cons
 
 /*
  * Append inner points of a step, up to `fraction`, to the step record before the step is committed. The points divide
- * the step into RECORD_PARTS parts. Further points lie next to the beginning after a jump, and next to the end before
- * one (`has_jump`).
+ * the step into RECORD_INTERVALS parts. Further points lie next to the beginning after a jump, and next to the end
+ * before one (`has_jump`).
  *
  * Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of the dense output.
  * Evaluations are not counted.
@@ -133,8 +133,8 @@ static int append_step_interior_rows(Integrator *run, Step *step, double fractio
     if (!run->step_record.rows)
         return 0;
     int status = compute_dense_output(run, p, step);
-    for (int k = !run->step_record.jumped; k < RECORD_PARTS + has_jump && !status; k++) {
-        const double s = k == 0 ? offset : k == RECORD_PARTS ? fraction - offset : fraction * k / RECORD_PARTS;
+    for (int k = !run->step_record.jumped; k < RECORD_INTERVALS + has_jump && !status; k++) {
+        const double s = k == 0 ? offset : k == RECORD_INTERVALS ? fraction - offset : fraction * k / RECORD_INTERVALS;
         const double t = step->t + s * step->h;
         double y[N_Y];
         if (!(s > 0.0 && s < fraction && t > step->t))
@@ -323,7 +323,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     run->discrete.is_frozen = 1;
     if (may_jump && !status) {
         set_phi_dot_max(run, drift); /* the branch of a rate exactly at the jump is arbitrary */
-        status = apply_drive_jumps_now(run, p);
+        status = apply_drive_jumps_at_current_time(run, p);
     }
     if (!status && run->t == t_end)
         status = record_user_events_at_run_end(run, 0.0, p);

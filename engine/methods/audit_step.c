@@ -29,7 +29,7 @@ enum { AUDIT_HALVINGS = 30, AUDIT_POINTS_PER_STEP = 4 };
 static double compute_scaled_defect(Integrator *run, const Step *step, const double *y, const double *rate,
     const double *dy, const Parameters *p)
 {
-    const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
+    const double known = max_of(run->audit.record[CHECK_defect].max_ratio, 0.0), h = step->h;
     const int rows = has_films() ? N_X : 2 * N_X; /* check_film_forces() checks velocities with films */
     const ErrorNorm *norm = &run->norm;
     const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
@@ -251,7 +251,8 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
 }
 
 /*
- * Return the mean number of steps between two steps drawn for checks. Their cost is thus limited to AUDIT_COST_FRACTION
+ * Return the mean number of steps between two steps drawn for checks: AUDIT_CHECK_EVALUATIONS / (AUDIT_COST_FRACTION
+ * n), with n evaluations of a step, at least AUDIT_MIN_EVALUATIONS. Their cost is thus limited to AUDIT_COST_FRACTION
  * of the evaluations. The interval depends on the method alone, so that a run in a batch is checked at the same steps.
  */
 static double compute_mean_check_interval(const Method *method)
@@ -274,7 +275,7 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
     const long evaluations = run->counts.evaluations;
     const int dense_ready = step->dense_ready;
     const double h = fraction * step->h;
-    const int checks_all = audit->level == AUDIT_FULL, is_due = run->counts.steps >= audit->next_drawn_step;
+    const int checks_all = audit->level == AUDIT_FULL, is_due = run->counts.steps >= audit->next_audited_step;
     const int is_whole = fraction >= 1.0 && event < 0;
     const int is_long = h > AUDIT_LENGTH_RATIO * run->control.last_step
         || (is_whole && h > AUDIT_MEASURED_LENGTH_RATIO * audit->longest_measured);
@@ -306,7 +307,7 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
             check_step_error(run, step, p);
         if (is_random || (is_due && is_whole)) {
             const double first = audit->n_drawn++ ? 1.0 : AUDIT_FIRST_FRACTION;
-            audit->next_drawn_step = run->counts.steps + 1 + (long)(2.0 * draw_random_number(audit) * first
+            audit->next_audited_step = run->counts.steps + 1 + (long)(2.0 * draw_random_number(audit) * first
                 * compute_mean_check_interval(step->method));
         }
         audit->n_long_steps += is_longer;

@@ -50,21 +50,21 @@ static double find_fastest_rate(const Integrator *run, const double *dy)
  * Set the smallest relevant speeds of lengths and angles, to which tolerances of velocities are relative for slow
  * motion. They are 0.01 of the speed that crosses the smallest relevant length at the fastest rate of the start. An
  * extreme rate is evaluated again just after the start, as it may be unbounded there. If the start hardly moves, as
- * before a transient, the time left in the run (`time_left`, s) determines them. speed_rounded, for rounding, is
+ * before a transient, the time left in the run (`remaining_time`, s) determines them. speed_rounded, for rounding, is
  * independent of it.
  */
-static void set_speed_floors(Integrator *run, double time_left, const Parameters *p)
+static void set_speed_floors(Integrator *run, double remaining_time, const Parameters *p)
 {
     double rate = find_fastest_rate(run, run->dy), dy[N_Y];
     RhsOutputs rhs;
-    if (rate * time_left > MAX_RATES_PER_RUN
-        && !evaluate_run_rhs(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy, &rhs))
+    if (rate * remaining_time > MAX_RATES_PER_RUN
+        && !evaluate_run_rhs(run, run->t + remaining_time / MAX_RATES_PER_RUN, run->y, p, dy, &rhs))
         rate = min_of(rate, find_fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->norm.speed_floor[kind] = run->norm.min_size[kind]
-            * (rate * time_left > 1e-3 ? 0.01 * rate : 1.0 / time_left);
+            * (rate * remaining_time > 1e-3 ? 0.01 * rate : 1.0 / remaining_time);
         run->norm.speed_rounded[kind] = run->norm.min_size[kind]
-            * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / time_left);
+            * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / remaining_time);
     }
 }
 
@@ -119,41 +119,41 @@ static int initialize_run_at_start(Integrator *run, const Parameters *p)
 
 /*
  * Begin the integration of a run, or resume it: first right-hand side, contacts, friction modes, tolerances, jumps of
- * drives, signs of user-defined events, first step length. Contacts and branches are frozen from here on. time_left: to
- * the end of the run, s. Return 0 or the status.
+ * drives, signs of user-defined events, first step length. Contacts and branches are frozen from here on.
+ * remaining_time: to the end of the run, s. Return 0 or the status.
  *
  * A first step length that is known already is kept; otherwise it is estimated and, in a closed contact, fitted as at
- * an onset. Methods that control their length begin with time_left.
+ * an onset. Methods that control their length begin with remaining_time.
  */
-static int begin_integration(Integrator *run, double time_left, const Parameters *p)
+static int begin_integration(Integrator *run, double remaining_time, const Parameters *p)
 {
     int status = run->ready ? 0 : initialize_run_at_start(run, p);
-    set_time_resolution(run, time_left);
+    set_time_resolution(run, remaining_time);
     set_film_mass_scale(run, p);
     freeze_branches(run);
     if (!status)
         status = update_branches_at_current_state(run, -1, p);
-    set_speed_floors(run, time_left, p);
+    set_speed_floors(run, remaining_time, p);
     update_speeds(run);
     /* error weights are its inverse */
     run->norm.energy_scale = max_of(compute_initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
     set_internal_state_weights(run, p);
     update_error_weights(run);
     if (!status)
-        status = apply_drive_jumps_now(run, p); /* to the branches after the jumps */
+        status = apply_drive_jumps_at_current_time(run, p); /* to the branches after the jumps */
     if (!status)
         status = initialize_event_signs(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
-        status = estimate_initial_step(run, time_left, p);
+        status = estimate_initial_step(run, remaining_time, p);
         if (!status && is_starting_in_contact(run)) { /* the contact force may have just begun: as at an onset */
             set_first_step(run, &run->control.after_contact[count_closed_contacts(run)][0], ONSET_ORDER);
-            status = fit_first_step_after_event(run, time_left, p);
+            status = fit_first_step_after_event(run, remaining_time, p);
         }
     }
     if (!status)
         status = set_initial_event_signs(run, p);
     if (run->choice.method->controls_length)
-        set_next_step_length(run, time_left);
+        set_next_step_length(run, remaining_time);
     return status;
 }
 

@@ -17,15 +17,15 @@ enum { MAX_FITTED = 3 };
 /*
  * Estimate the length of the first step of a run from the error norms of the first two derivatives of the motion. The
  * second derivative is a difference over a trial step by Euler's method. Sets run->control.h (s): MAX_FIRST_FRACTION of
- * time_left (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
+ * remaining_time (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
  */
-static int estimate_initial_step(Integrator *run, double time_left, const Parameters *p)
+static int estimate_initial_step(Integrator *run, double remaining_time, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], first_norm = 0.0, second_norm = 0.0;
     RhsOutputs rhs;
     for (int k = 0; k < 2 * N_X; k++)
         first_norm = max_of(first_norm, fabs(run->dy[k]) * run->norm.weight[k]);
-    double h = min_of(first_norm > 0.0 ? 1.0 / first_norm : INFINITY, MAX_FIRST_FRACTION * time_left);
+    double h = min_of(first_norm > 0.0 ? 1.0 / first_norm : INFINITY, MAX_FIRST_FRACTION * remaining_time);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
     const int status = evaluate_run_rhs(run, run->t + h, y, p, dy, &rhs);
@@ -36,7 +36,7 @@ static int estimate_initial_step(Integrator *run, double time_left, const Parame
     /* rates change completely in the time one / two; passed: tolerances passed in it; two may be subnormal */
     const double time = min_of(first_norm / second_norm, MAX_CHANGE_TIME_S), passed = max_of(1.0, time * first_norm);
     run->control.h = second_norm > 0.0 ? max_of(time * pow(passed, -run->choice.method->power), h) : MAX_FIRST_FRACTION
-        * time_left;
+        * remaining_time;
     return 0;
 }
 
@@ -62,9 +62,12 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
 
 /*
  * Return the factor by which a step of length h (s) must change so that straight motion over it has the allowed error.
- * change, size: of the accelerations, by compute_acceleration_change(). At an onset the error grows as
- * h^(first_step_order - 1), as forces begin as delta^n. Elsewhere allowed_error is the relative change of the
- * accelerations, and changes below one tolerance do not count. Infinity without a change.
+ * change, size: of the accelerations, by compute_acceleration_change().
+ *
+ * At an onset the error grows as h^(first_step_order - 1), as forces begin as delta^n: the factor is (allowed_error /
+ * (change h))^(1 / (first_step_order - 1)). Elsewhere allowed_error is the relative change of the accelerations, and
+ * changes below one tolerance do not count: the factor is max(allowed_error size / change, 1 / sqrt(change h)).
+ * Infinity without a change.
  */
 static double compute_length_factor(const Integrator *run, double h, double change, double size, double allowed_error)
 {
@@ -81,9 +84,9 @@ static double compute_length_factor(const Integrator *run, double h, double chan
  * At an onset the allowed error is that of the last onset. After other events the length is fitted only once; later
  * steps reuse the length stored for that kind of event. At most MAX_FITTED lengths are tried; onset_error_per_s is
  * stored for record_first_step_length(). Does nothing for fixed steps, methods that choose their length, and without an
- * event. time_left: to the end of the run, s. Return 0, or STOPPED; other failures shorten the step.
+ * event. remaining_time: to the end of the run, s. Return 0, or STOPPED; other failures shorten the step.
  */
-static int fit_first_step_after_event(Integrator *run, double time_left, const Parameters *p)
+static int fit_first_step_after_event(Integrator *run, double remaining_time, const Parameters *p)
 {
     const int stiff = !!run->choice.method->stiff, is_onset = run->control.first_step_order > 0.0;
     const int is_after_switch = is_first_after_switch(run);
@@ -96,8 +99,8 @@ static int fit_first_step_after_event(Integrator *run, double time_left, const P
         || (*run->control.stored_first_length > 0.0 && !is_onset))
         return 0;
     run->control.onset_error_per_s = 0.0;
-    for (int i = 1; i <= MAX_FITTED && time_left > 0.0; i++) {
-        const double h = min_of(run->control.h, time_left);
+    for (int i = 1; i <= MAX_FITTED && remaining_time > 0.0; i++) {
+        const double h = min_of(run->control.h, remaining_time);
         double change, size, factor = FIT_FAILED;
         const int status = compute_acceleration_change(run, h, p, &change, &size);
         if (status == STOPPED)

@@ -50,7 +50,7 @@ static const Method *const METHODS[] = {
 #define EXPLICIT_METHOD (&dop853) /* explicit method of the automatic choice if a run begins with the stiff one */
 
 /*
- * Return whether the method of a run stabilises the constraints by Baumgarte's terms instead of projecting its steps.
+ * Return whether the method of a run stabilizes the constraints by Baumgarte's terms instead of projecting its steps.
  */
 static int uses_baumgarte_terms(const Integrator *run) { return run->choice.method->uses_baumgarte_terms; }
 

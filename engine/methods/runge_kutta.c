@@ -40,7 +40,7 @@ static void tableau_interpolate(const Integrator *run, const Step *step, double 
 /* Fractions of a step, ascending, at which rk4 evaluates the equations. */
 static const double rk4_error_nodes[] = {0.0, 0.5, 1.0};
 
-/* The classical method of order 4, for fixed steps; in the full formulation Baumgarte's terms stabilise it. */
+/* The classical method of order 4, for fixed steps; in the full formulation Baumgarte's terms stabilize it. */
 static const Method rk4 = {.name = "rk4", BY_TABLEAU, .tableau = &classical, .stages = RK4_STAGES,
     .lane_method = METHOD_RK4,
     .uses_baumgarte_terms = !TREE, .power = 1.0 / 4.0, .rejected_h_rho = 2.8, .limiting_h_rho = 2.5,

@@ -72,7 +72,7 @@ static void discard_stages(Step *step)
     step->may_force_oscillate = -1;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->min_event_value[k] = INFINITY;
-    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+    for (int k = 0; k < 2 * N_X && N_MONITORED > 0; k++) {
         step->min_state[k] = INFINITY;
         step->max_state[k] = -INFINITY;
     }
@@ -104,10 +104,12 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
     }
 }
 
-/* Extend the range of the coordinates and velocities in a step by those of a stage y; only if functions are watched. */
+/*
+ * Extend the range of the coordinates and velocities in a step by those of a stage y; only if functions are monitored.
+ */
 static void extend_stage_range(Step *step, const double *y)
 {
-    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+    for (int k = 0; k < 2 * N_X && N_MONITORED > 0; k++) {
         step->min_state[k] = min_of(step->min_state[k], y[k]);
         step->max_state[k] = max_of(step->max_state[k], y[k]);
     }
@@ -174,11 +176,11 @@ static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 static double *get_end_rounding(Integrator *run); /* methods/taylor.c */
 
 /*
- * Project state y at time t in place onto the constraint equations, unless Baumgarte stabilisation by the method
+ * Project state y at time t in place onto the constraint equations, unless Baumgarte stabilization by the method
  * replaces that. If the projection cannot be computed, y stays. rounding_errors (N_Y): accumulated ones of y, updated;
  * NULL: none are accumulated.
  */
-static void project_unless_stabilised(
+static void project_unless_stabilized(
     Integrator *run, double t, double *y, double *rounding_errors, const Parameters *p)
 {
     if (!uses_baumgarte_terms(run))
@@ -186,12 +188,12 @@ static void project_unless_stabilised(
 }
 
 /*
- * Project state y at time t in place onto the constraint equations, unless the method uses Baumgarte stabilisation, and
+ * Project state y at time t in place onto the constraint equations, unless the method uses Baumgarte stabilization, and
  * onto the closed rigid contacts. Called for samples and states between the ends of steps.
  */
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
-    project_unless_stabilised(run, t, y, NULL, p);
+    project_unless_stabilized(run, t, y, NULL, p);
     project_closed_contacts(run, t, y, p);
 }
 
@@ -229,7 +231,7 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
     if (!all_finite(step->y, N_Y))
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
-    project_unless_stabilised(run, step->t + step->h, step->y, get_end_rounding(run), p);
+    project_unless_stabilized(run, step->t + step->h, step->y, get_end_rounding(run), p);
     const double constraint_distance = compute_constraint_distance(run, before, step->y);
     if (constraint_distance > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / get_rtol(run)) && run->counts.steps > 0
         && run->control.attempt.n_drift_rejections++ < MAX_DRIFT_REJECTIONS)

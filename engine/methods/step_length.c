@@ -10,11 +10,11 @@
  * RADAU5 of II, section IV.8. Constants without a source were chosen for gudgeon.
  */
 #define SAFETY_ONSET 0.8        /* the same for the first step of a contact, whose error has a lower order */
-#define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a watched function may have a zero in the step */
+#define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a monitored function may have a zero in the step */
 #define MAX_GROWTH_FIRST 5.0    /* largest ratio for the stored length of first steps after an event */
 #define MIN_SHRINK 0.1          /* smallest ratio of the lengths of an attempt and the rejected one before */
 #define MAX_SHRINK 0.9          /* largest ratio */
-#define MIN_ORDER_SEEN 2.0      /* smallest order inferred from the errors of two rejected attempts */
+#define MIN_INFERRED_ORDER 2.0      /* smallest order inferred from the errors of two rejected attempts */
 #define SHRINK_NEWTON 0.5       /* ratio if Newton's iteration failed [2] */
 #define SHRINK_FAILED 0.25      /* ratio if a stage is not finite */
 #define SHRINK_UNRESOLVED 0.25  /* ratio if the motion between the stages is not resolved */
@@ -38,7 +38,7 @@ enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
 #define MAX_EXPLICIT_STABILITY 2.5     /* h rho below which the explicit method is cheaper */
-#define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
+#define MAX_INFERRED_ORDER 30.0 /* largest order of error growth inferred from two steps */
 
 /* Replace the methods that a run stores by those of this library, when a call continues a run of another library. */
 static void relink_methods(Integrator *run)
@@ -50,7 +50,8 @@ static void relink_methods(Integrator *run)
 
 /*
  * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change: its
- * index, or 0 if the method never changes. A run that begins with the stiff method returns to dop853.
+ * index, or 0 if the method never changes. A run that begins with the stiff method returns to dop853, after 4
+ * MIN_RETURN_STEPS steps that oppose the stiff method instead of MIN_RETURN_STEPS.
  */
 static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
@@ -203,7 +204,7 @@ static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, ste
 /*
  * Return the factor SAFETY e^(-1/k), clipped to MIN_SHRINK..MAX_SHRINK, from the length of a rejected step to that of
  * the next attempt; its error e is proportional to h^k. If length and error fell since an attempt rejected before, both
- * give k = log(e'/e) / log(h'/h), between MIN_ORDER_SEEN and 1/power. Otherwise k is compute_error_order(). The
+ * give k = log(e'/e) / log(h'/h), between MIN_INFERRED_ORDER and 1/power. Otherwise k is compute_error_order(). The
  * rejected length, its error and its end are stored in the run.
  */
 static double compute_shrink_factor(Integrator *run, const Step *step)
@@ -212,7 +213,7 @@ static double compute_shrink_factor(Integrator *run, const Step *step)
     double order = compute_error_order(run, step);
     if (attempt->rejected_h > attempt->h && isfinite(attempt->error) && attempt->error > step->error)
         order = min_of(1.0 / step->method->power,
-            max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->rejected_h / attempt->h)));
+            max_of(MIN_INFERRED_ORDER, log(attempt->error / step->error) / log(attempt->rejected_h / attempt->h)));
     attempt->rejected_h = attempt->h;
     attempt->error = step->error;
     run->control.rejected_length = attempt->h;
@@ -239,16 +240,17 @@ static void record_first_step_length(Integrator *run, const Step *step)
 }
 
 /*
- * Update the order of error growth seen in rejected attempts, by which the next step may grow. In stiff motion that
- * order can be far higher than the method's. was_rejected: whether an attempt at this step was rejected, which then
- * updates the stored order; the order decays with each step.
+ * Update the order of error growth seen in rejected attempts, by which the next step may grow: log(e'/e) / log(h'/h) of
+ * the rejected (') and the accepted length h and error e, at most MAX_INFERRED_ORDER. In stiff motion that order can be
+ * far higher than the method's. was_rejected: whether an attempt at this step was rejected, which then updates the
+ * stored order. The order decays by ORDER_DECAY with each step.
  */
 static void update_observed_order(Integrator *run, const Step *step, int was_rejected)
 {
     const Attempt *attempt = &run->control.attempt;
     if (was_rejected && attempt->rejected_h > step->h && isfinite(attempt->error) && attempt->error > step->error)
-        run->control.observed_order =
-            min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->rejected_h / step->h));
+        run->control.observed_order = min_of(MAX_INFERRED_ORDER,
+            log(attempt->error / get_bounded_error(step)) / log(attempt->rejected_h / step->h));
     run->control.observed_order *= ORDER_DECAY;
 }
 
@@ -363,7 +365,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
                 compute_flight_step_limit(run, NULL, p))), p);
         h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
-    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = left, .end = end, .time_magnitude = far,
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .remaining_time = left, .end = end, .time_magnitude = far,
         .is_open = 1, .lane_method = run->choice.method->lane_method, .film_error_norm = INFINITY};
 }
 
@@ -403,9 +405,9 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
             step->error = max_of(step->error, error);
         attempt->film_error_norm = error > run->control.max_accepted_error ? error : INFINITY;
     }
-    const int is_good = !trial_status && step->error <= run->control.max_accepted_error;
+    const int is_accurate = !trial_status && step->error <= run->control.max_accepted_error;
     const double min_length = MIN_STEP_FRACTION * attempt->time_magnitude;
-    if (is_good && !method->stiff && run->choice.h_rho > method->rejected_h_rho) {
+    if (is_accurate && !method->stiff && run->choice.h_rho > method->rejected_h_rho) {
         count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed
             && ++run->choice.n_unstable_steps >= run->choice.max_opposing_steps)
@@ -414,21 +416,21 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
             attempt->h *= method->limiting_h_rho / run->choice.h_rho;
         return request_retry(run);
     }
-    if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
+    if (is_accurate && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
         attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
         return request_retry(run);
     }
-    const int unresolved = is_good && is_step_unresolved(run, step, p);
-    if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
+    const int unresolved = is_accurate && is_step_unresolved(run, step, p);
+    if (is_accurate && (unresolved || has_unresolved_film_force(run, step, end_error))
         && attempt->n_shortened++ < MAX_REDUCTIONS) {
         attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_UNRESOLVED;
         return request_retry(run);
     }
-    const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->time_magnitude
+    const double transient = is_accurate && attempt->h > MIN_TRANSIENT_FRACTION * attempt->time_magnitude
         ? find_missed_transient(run, step, p) : 0.0;
     if (transient > 0.0 && attempt->n_shortened++ < MAX_REDUCTIONS) {
         attempt->was_rejected = 1;
@@ -436,8 +438,8 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
         return request_retry(run);
     }
-    if (is_good) {
-        choose_next_length(run, step, attempt->was_rejected, attempt->h < attempt->time_left);
+    if (is_accurate) {
+        choose_next_length(run, step, attempt->was_rejected, attempt->h < attempt->remaining_time);
         const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->time_magnitude;
         *status = detect_short_step_stall(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;

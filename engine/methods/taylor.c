@@ -125,9 +125,10 @@ static const Method taylor = {.name = "taylor",
     .controls_length = 1};
 
 /*
- * Set the order of the series of a run, and the allowed defect at the end of a step, from the relative tolerance of the
- * steps: 2^5 tolerances or TAYLOR_ROUNDING, less at low orders. With `auto`, it is TAYLOR_TOLERANCE_RATIO times
- * smaller.
+ * Set the order of the series of a run, and the weight of the defect at the end of a step, from the relative tolerance
+ * of the steps. The allowed defect is 2^TAYLOR_DEFECT_LOG2 tolerances or TAYLOR_ROUNDING, if larger; at orders below
+ * TAYLOR_DEFECT_LOG2 + 4 the exponent is the order minus 4. With the method `auto`, the tolerance and this limit are
+ * TAYLOR_TOLERANCE_RATIO times smaller.
  */
 static void set_series_order(Integrator *run, double tolerance)
 {
@@ -146,7 +147,7 @@ static double *get_end_rounding(Integrator *run)
 
 /*
  * Discard the stored series of a run, because its state changes. is_whole: whether the new state is the end of a whole
- * step, whose rounding error is kept for compensated summation; otherwise it is set to 0.
+ * step; with Taylor's method its rounding error is then kept for compensated summation. Otherwise it is set to 0.
  */
 static void discard_series(Integrator *run, int is_whole)
 {

@@ -8,15 +8,20 @@ enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
 #define SINGULAR_NODE_DISPLACEMENT 1e-2 /* the same: motion of the fastest coordinate from node to node */
 #define INTERPOLATION_TOL 1e-8   /* the same: largest difference of polynomials through the nodes */
 #define LOOP_POSITION_TOL 1e-3 /* the same: largest difference of positions from the integral of the rates */
+#define MAX_SECOND_STEP_RATIO 0.25  /* second to first Newton step of an iteration near a root */
+#define LOOP_ERROR_ROUNDING 1e-17   /* the same: errors of a position that are below rounding */
+#define MIN_LOOP_STEP 1e-15         /* the same: a smaller step is rounding */
+#define MAX_UNCONVERGED_SUM 1e-9    /* the same: sum of steps that is accepted without convergence */
 
 /*
  * Solve the closures of the driven loops at time t by Chebyshev's method, from the guess in q. Only q[N_X] and later
  * elements are replaced: the loops' coordinates and directions. *step_sum: sum over iterations of the largest first
  * step, rad or fraction of the size.
  *
- * An iteration consists of two Newton steps; the error after it is about second_step^2/step. If the second exceeds a
- * quarter of the first, no root is near (L. V. Kantorovich). Return 0 if that error is below rounding, or if *step_sum
- * < 1e-9 after all MAX_LOOP_ITERATIONS iterations; otherwise the number of a closure.
+ * An iteration consists of two Newton steps; the error after it is about second_step^2/step. If the second exceeds
+ * MAX_SECOND_STEP_RATIO of the first, no root is near (L. V. Kantorovich). Return 0 if that error and the cube of the
+ * first step are below LOOP_ERROR_ROUNDING, if the step is below MIN_LOOP_STEP, or if *step_sum < MAX_UNCONVERGED_SUM
+ * after all MAX_LOOP_ITERATIONS iterations. Otherwise return the number of a closure.
  */
 static int solve_loop_closures(double t, double *q, const DiscreteState *discrete, const Parameters *p,
     double *step_sum)
@@ -42,13 +47,14 @@ static int solve_loop_closures(double t, double *q, const DiscreteState *discret
         } else {
             turn_directions(q, step, p);
         }
-        if (!isfinite(sum) || second_size > 0.25 * size)
+        if (!isfinite(sum) || second_size > MAX_SECOND_STEP_RATIO * size)
             return row;
         /* the second step may vanish although the cube of the first is not negligible */
-        if ((4.0 * second_size * second_size < 1e-17 * size && size * size * size < 1e-17) || size < 1e-15)
+        const int is_second_negligible = 4.0 * second_size * second_size < LOOP_ERROR_ROUNDING * size;
+        if ((is_second_negligible && size * size * size < LOOP_ERROR_ROUNDING) || size < MIN_LOOP_STEP)
             return 0;
     }
-    return *step_sum < 1e-9 ? 0 : row;
+    return *step_sum < MAX_UNCONVERGED_SUM ? 0 : row;
 }
 
 /* Store the driven loops' coordinates and two rates at time t from `tree` in `loops`. */
@@ -89,12 +95,12 @@ static double compute_loop_position_error(double h, const DrivenLoops *loops_bef
 }
 
 /*
- * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time, whose Taylor series
- * of third order is the guess. Return 0, or the number of a closure if they cannot be solved or the branch is not
- * certain.
+ * Solve the positions and the first and second rates of the driven loops at time t, from their state `loops_before` at
+ * a near time. The guess is the Taylor series of third order from there. Return 0, the number of a closure that cannot
+ * be solved, or 1 if the branch is not certain.
  *
- * The branch is certain if the Newton steps sum up to at most MAX_LOOP_DISPLACEMENT, and the positions agree with the
- * integral of the rates within LOOP_POSITION_TOL.
+ * The branch is certain if the steps of solve_loop_closures() sum up to at most MAX_LOOP_DISPLACEMENT, and the
+ * positions agree with the integral of the rates within LOOP_POSITION_TOL.
  */
 static int advance_driven_loops(double t, const DrivenLoops *loops_before, const DiscreteState *discrete,
     const Parameters *p, TreeState *tree)

@@ -5,9 +5,9 @@
  * This file owns the checks of one state; audit_state() calls them at the end of each step. methods/audit_step.c checks
  * the inside of steps. The audit changes only its own record.
  */
-#define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
+#define AUDIT_MIN_PENETRATION 4e-13      /* m: contacts with less penetration carry a negligible force */
 #define AUDIT_MAX_DEPTH 10.0       /* tolerances: allowed violation of a gap, or of a slip in its mode */
-#define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
+#define AUDIT_MIN_SPEED_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
 #define AUDIT_DIFFERENCE_STEPS 1e3 /* steps of the integrator that count as a time scale of motion and drives */
@@ -60,12 +60,12 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
 {
     AuditRecord *record = &audit->record[check];
     const double multiple = value / max_of(limit, 1e-300);
-    if (!(multiple > record->worst) && multiple == multiple)
+    if (!(multiple > record->max_ratio) && multiple == multiple)
         return;
     *record = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, index};
     if (multiple == 0.0) /* one of many zeros: its time is irrelevant */
         *record = (AuditRecord){0.0, 0.0, -1};
-    if (!(record->worst <= AUDIT_FAILS))
+    if (!(record->max_ratio <= AUDIT_FAILS))
         audit->status = AUDITED;
 }
 
@@ -76,7 +76,7 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
  */
 static void record_check(Audit *audit, int check, double value, double limit, double t, int index)
 {
-    if (!(value <= audit->record[check].worst * limit))
+    if (!(value <= audit->record[check].max_ratio * limit))
         record_largest_violation(audit, check, value, limit, t, index);
 }
 
@@ -120,14 +120,14 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     constraints(t, absolute_state, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = motion_row[i], length = row_is_length[row];
-        const double play = length ? run->norm.min_size[0] : run->norm.min_size[1];
-        const double limit = max_of(rtol * play,
+        const double min_size = length ? run->norm.min_size[0] : run->norm.min_size[1];
+        const double limit = max_of(rtol * min_size,
             AUDIT_ROUNDING * (length ? size + max_coordinate[0] : 1.0 + max_coordinate[1]));
         record_check(audit, CHECK_position, fabs(phi[row]), limit, t, row);
     }
     if (!include_velocities)
         return;
-    const double min_speed = max_of(AUDIT_REST_FRACTION * run->norm.speed_floor[0], 1e-300); /* m/s */
+    const double min_speed = max_of(AUDIT_MIN_SPEED_FRACTION * run->norm.speed_floor[0], 1e-300); /* m/s */
     const double speed_scale = max_of(max_of(max_speed[0], size * max_speed[1]), min_speed),
         half_interval = 1e-5 * size / speed_scale;
     compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);
@@ -267,12 +267,12 @@ static void check_accelerations(Integrator *run, double t, double step_length, c
  * Return the error in m that the tolerance, rounding and the location of events at time t (s) allow for the penetration
  * of a joint, whose values there are `clearance`. Limit of the check of gaps.
  */
-static double compute_gap_limit(const Integrator *run, double t, const Clearance *clearance, int joint,
+static double compute_penetration_error_limit(const Integrator *run, double t, const Clearance *clearance, int joint,
     const Parameters *p)
 {
     const double location_error = 4.0 * (run->roots.time_resolution
         + 8.0 * DBL_EPSILON * fabs(t)) * fabs(clearance->deltadot);
-    const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
+    const double min_rounding = max_of(AUDIT_MIN_PENETRATION, 64.0 * DBL_EPSILON * get_mechanism_size(run));
     const double rounding = max_of(1e-9 * radial_clearance(p, joint), min_rounding);
     return max_of(AUDIT_MAX_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding) + location_error;
 }
@@ -280,7 +280,8 @@ static double compute_gap_limit(const Integrator *run, double t, const Clearance
 /*
  * Check the gap of each joint with play against the state of its contact, at a state with outputs `rhs`, and record
  * CHECK_gap: open contacts have no penetration, closed ones of compliant surfaces no gap, closed ones of rigid surfaces
- * neither. Values up to AUDIT_GRAZE count as zero. Called at the end of each step and at states inside selected steps.
+ * neither. Values up to AUDIT_MIN_PENETRATION count as zero. Called at the end of each step and at states inside
+ * selected steps.
  */
 static void check_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
@@ -288,10 +289,10 @@ static void check_gaps(Integrator *run, double t, const RhsOutputs *rhs, const P
         const Clearance *joint = &rhs->clearance[i];
         const double violation = !run->discrete.contact[i].closed ? joint->delta
             : is_compliant(i) ? -joint->delta : fabs(joint->delta);
-        if (violation <= AUDIT_GRAZE)
+        if (violation <= AUDIT_MIN_PENETRATION)
             record_check(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
         else
-            record_check(&run->audit, CHECK_gap, violation, compute_gap_limit(run, t, joint, i, p), t, i);
+            record_check(&run->audit, CHECK_gap, violation, compute_penetration_error_limit(run, t, joint, i, p), t, i);
     }
 }
 
@@ -384,8 +385,8 @@ static void check_rigid_forces(Integrator *run, double t, const RhsOutputs *rhs)
 
 /*
  * Check the modes of friction elements that can stick at time t (s) of the step from run->t, with outputs `rhs`, and
- * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_HELD none at all; slips may err by
- * AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force
+ * record CHECK_mode. In slip there is no slip against the mode, in stick and MODE_CONSTRAINED none at all; slips may
+ * err by AUDIT_MAX_DEPTH times the larger of MAX_STICK_SPEED and the tolerance of the largest speed. In stick the force
  * exceeds its static limit by at most AUDIT_FORCE of the limit there or at the beginning. Called with
  * check_rigid_forces(), and omitted at the same times.
  */

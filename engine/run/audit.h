@@ -8,8 +8,8 @@
 
 /* The largest violation that one check has found. */
 typedef struct {
-    double worst, t; /* multiple of the limit, < 0: not checked; s */
-    int where;       /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
+    double max_ratio, t; /* largest value/limit, < 0: not checked; its time, s */
+    int index; /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
 } AuditRecord;
 
 /*
@@ -19,7 +19,7 @@ typedef struct {
  */
 typedef struct {
     int level, status;             /* level: AuditLevel; status: AUDITED once a check failed */
-    long next_drawn_step;          /* number of steps after which the next drawn step is checked */
+    long next_audited_step;          /* number of steps after which the next drawn step is checked */
     long n_drawn;                  /* drawn steps so far; if even, the next is checked inside, else as a whole */
     long n_long_steps;             /* steps checked because they were much longer than others */
     double longest_measured;       /* longest step whose error was measured, s */

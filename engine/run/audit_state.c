@@ -11,10 +11,10 @@
 static void check_user_event(Integrator *run, int event, int n_events_before)
 {
     Audit *audit = &run->audit;
-    const double value_before = audit->event_before[event], value_now = run->rhs.event[event];
+    const double value_before = audit->event_before[event], value_after = run->rhs.event[event];
     const int is_end_event = audit->end_event == event
         && fabs(value_before) > AUDIT_NOISE_FRACTION * audit->event_scale[event]
-        && fabs(value_now) < AUDIT_ZERO_FRACTION * fabs(value_before) && event_direction[event] * value_before <= 0.0;
+        && fabs(value_after) < AUDIT_ZERO_FRACTION * fabs(value_before) && event_direction[event] * value_before <= 0.0;
     int is_recorded = 0;
     for (int k = n_events_before; k < run->events.n; k++)
         is_recorded |= run->events.number[k] == event;
@@ -96,7 +96,7 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
  */
 static void start_audit(Integrator *run, int level, double size)
 {
-    run->audit = (Audit){.level = level, .mechanism_size = size, .random = 1u, .next_drawn_step = 2};
+    run->audit = (Audit){.level = level, .mechanism_size = size, .random = 1u, .next_audited_step = 2};
     for (int k = 0; k < N_CHECKS; k++)
         run->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }
@@ -108,8 +108,8 @@ static void start_audit(Integrator *run, int level, double size)
 static void report_audit(const Integrator *run, double *multiples, double *t, int *index)
 {
     for (int k = 0; k < N_CHECKS; k++) {
-        multiples[k] = run->audit.record[k].worst;
+        multiples[k] = run->audit.record[k].max_ratio;
         t[k] = run->audit.record[k].t;
-        index[k] = run->audit.record[k].where;
+        index[k] = run->audit.record[k].index;
     }
 }

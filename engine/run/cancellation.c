@@ -3,8 +3,8 @@
 #include <time.h>
 
 enum { MAX_POLL_AFTER = 64, MAX_SLOW_CHECKS = 3, MIN_DOUBLED_STEPS = 1 << 18 };
-#define MAX_STEPS_LEFT_SLOW 1e8   /* steps left at which a run that became slow is ended */
-#define MAX_STEPS_LEFT 1e11  /* steps left at which any run is ended */
+#define MAX_REMAINING_SLOW_STEPS 1e8   /* estimated remaining steps at which a run that became slow is ended */
+#define MAX_REMAINING_STEPS 1e11  /* the same at which any run is ended */
 #define MIN_GAIN_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
 /* Return the current time in s since the epoch, from the clock of the system, which may be set back. */
@@ -30,14 +30,14 @@ int poll_cancellation(Cancellation *cancellation)
     if (!cancellation->is_stop_requested)
         cancellation->poll_after = LONG_MAX;
     if (cancellation->is_stop_requested && !cancellation->stop) {
-        const double time_now = read_clock(), elapsed = time_now - cancellation->last_reading;
-        cancellation->last_reading = time_now;
+        const double wall_time = read_clock(), elapsed = wall_time - cancellation->last_reading;
+        cancellation->last_reading = wall_time;
         if (elapsed < 0.1 * cancellation->poll_interval)
             cancellation->poll_after =
                 cancellation->poll_after < MAX_POLL_AFTER / 2 ? 2 * cancellation->poll_after + 1 : MAX_POLL_AFTER;
         else if (elapsed > 0.5 * cancellation->poll_interval)
             cancellation->poll_after = (cancellation->poll_after + 1) / 2;
-        if (time_now >= cancellation->next_poll || elapsed < 0.0) {
+        if (wall_time >= cancellation->next_poll || elapsed < 0.0) {
             cancellation->stop = cancellation->is_stop_requested(cancellation->context) != 0;
             cancellation->last_reading = read_clock();
             cancellation->next_poll = cancellation->last_reading + cancellation->poll_interval;
@@ -78,8 +78,8 @@ static double estimate_remaining_steps(const ProgressMonitor *monitor, double t,
  * time. The run then never ends, as where the frequency of a drive grows exponentially. Return 0 at all other steps.
  *
  * The criterion: the doubling gained no more time than the one N_DOUBLINGS before, steps have not become longer again,
- * and the extrapolated number of steps up to t_end (s) exceeds MAX_STEPS_LEFT. The first MIN_DOUBLED_STEPS steps never
- * meet it.
+ * and the extrapolated number of steps up to t_end (s) exceeds MAX_REMAINING_STEPS. The first MIN_DOUBLED_STEPS steps
+ * never meet it.
  */
 static int detect_exponential_step_count(ProgressMonitor *monitor, double t, double t_end)
 {
@@ -95,14 +95,14 @@ static int detect_exponential_step_count(ProgressMonitor *monitor, double t, dou
     /* steps have not become longer again */
     const int slows = monitor->gain * steps <= 2.0 * gain * MONITOR_STEPS;
     return steps >= MIN_DOUBLED_STEPS && gain <= gain_before && slows
-        && steps * exp2((t_end - t) / gain) > MAX_STEPS_LEFT;
+        && steps * exp2((t_end - t) / gain) > MAX_REMAINING_STEPS;
 }
 
 /*
  * Count a step that ends at time t (s) and return whether the run no longer advances towards t_end. Gains of time are
- * compared every MONITOR_STEPS steps. A comparison is slow in two cases: more than MAX_STEPS_LEFT steps are estimated
- * to remain, or more than MAX_STEPS_LEFT_SLOW, and the gain is below MIN_GAIN_RATIO of the mean of earlier ones that
- * were not slow. In the second case monitor->slowdown becomes 1, else 0.
+ * compared every MONITOR_STEPS steps. A comparison is slow in two cases: more than MAX_REMAINING_STEPS steps are
+ * estimated to remain, or more than MAX_REMAINING_SLOW_STEPS, and the gain is below MIN_GAIN_RATIO of the mean of
+ * earlier ones that were not slow. In the second case monitor->slowdown becomes 1, else 0.
  *
  * MAX_SLOW_CHECKS successive slow comparisons end the run, and so does a number of steps that grows exponentially with
  * time: monitor->slowdown is then GROWTH_DOUBLINGS. Steps that become longer again reset the count, because a fast
@@ -122,11 +122,11 @@ int detect_stall(ProgressMonitor *monitor, double t, double t_end)
     monitor->t = t;
     if (monitor->steps == 1)
         return 0;
-    const double steps_left = estimate_remaining_steps(monitor, t, t_end);
+    const double remaining_steps = estimate_remaining_steps(monitor, t, t_end);
     monitor->slowdown =
-        steps_left > MAX_STEPS_LEFT_SLOW
+        remaining_steps > MAX_REMAINING_SLOW_STEPS
         && monitor->gain * (double)monitor->n_gains < MIN_GAIN_RATIO * monitor->gain_sum;
-    if (steps_left > MAX_STEPS_LEFT || monitor->slowdown) {
+    if (remaining_steps > MAX_REMAINING_STEPS || monitor->slowdown) {
         monitor->n_slow_checks = monitor->gain > 1.1 * gain_before ? 0 : monitor->n_slow_checks + 1;
     } else {
         monitor->n_slow_checks = 0;
@@ -137,8 +137,9 @@ int detect_stall(ProgressMonitor *monitor, double t, double t_end)
 }
 
 /*
- * Return how many of the next calls of detect_stall() only count steps, without a comparison. Used by runs in lanes,
- * which make these steps without the test.
+ * Return how many of the next calls of detect_stall() only count steps, without a comparison. It is the smaller of the
+ * numbers of steps before doubling.next and before the next multiple of MONITOR_STEPS; 0: the next call compares. Used
+ * by runs in lanes, which make these steps without the test.
  */
 long count_steps_before_check(const ProgressMonitor *monitor)
 {

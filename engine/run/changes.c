@@ -221,7 +221,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
  * 0, ENDED if an event ends the run, or another status. Called at the start and end of a run, and at each end of fixed
  * steps.
  */
-static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
+static int apply_drive_jumps_at_current_time(Integrator *run, const Parameters *p)
 {
     double branches_before[N_SWITCHES + 1];
     int has_changed = 0;
@@ -252,7 +252,10 @@ static inline int apply_drive_jump(Integrator *run, int switch_index, const Para
 }
 
 /* Return the status 0: no drive of the scene has a rate that jumps. */
-static inline int apply_drive_jumps_now(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
+static inline int apply_drive_jumps_at_current_time(Integrator *run, const Parameters *p)
+{
+    return (void)run, (void)p, 0;
+}
 #endif
 
 /*
@@ -321,7 +324,7 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         status = ENDED;
     const int crossed_status = !status || status == ENDED ? record_crossed_events(run, values_before, p) : 0;
     const int arrival_status = !status || status == ENDED
-        ? record_arrivals_at_zero(run, &state_before, 1e-4 * run->control.h, p) : 0;
+        ? record_events_at_constraint(run, &state_before, 1e-4 * run->control.h, p) : 0;
     return crossed_status ? crossed_status : arrival_status ? arrival_status : status;
 }
 

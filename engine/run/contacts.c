@@ -33,7 +33,7 @@ static void reset_internal_states(Integrator *run, int joint)
  */
 static void start_contact_record(Integrator *run, int joint, double t, double deltadot)
 {
-    run->contacts.ongoing[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
+    run->contacts.ongoing[joint] = (ContactRecord){t, NAN, deltadot, 0.0, t, joint};
 }
 
 /*
@@ -61,14 +61,14 @@ static void restore_compression_flags(Integrator *run, const signed char *codes)
 }
 
 /*
- * Append a contact to the list that Python fetches. For an impact without duration F_peak is the impulse in N s. Return
- * 0, or CHATTERING if the list is full; the contact is then dropped.
+ * Append a copy of a contact to the list that Python fetches. Return 0, or CHATTERING if the list is full; the contact
+ * is then dropped. F_peak is a force in N, or the impulse in N s of an impact without duration.
  */
-static int append_contact(Integrator *run, const Impact *contact)
+static int append_contact(Integrator *run, const ContactRecord *contact)
 {
-    if (run->contacts.n_impacts >= LISTED_IMPACTS)
+    if (run->contacts.n_records >= LISTED_IMPACTS)
         return CHATTERING;
-    run->contacts.impacts[run->contacts.n_impacts++] = *contact;
+    run->contacts.records[run->contacts.n_records++] = *contact;
     return 0;
 }
 
@@ -78,11 +78,11 @@ static int append_contact(Integrator *run, const Impact *contact)
  * there is one. Return 0, or CHATTERING if the list is full. Called for each contact of an impact with a positive
  * impulse.
  */
-static inline int append_impact(Integrator *run, const Impact *impact, int may_merge, int is_onset)
+static inline int append_impact(Integrator *run, const ContactRecord *impact, int may_merge, int is_onset)
 {
-    Impact *list = run->contacts.impacts;
+    ContactRecord *list = run->contacts.records;
     run->contacts.onsets += is_onset;
-    for (int k = run->contacts.n_impacts - 1; k >= 0 && may_merge && list[k].t_on == run->t; k--)
+    for (int k = run->contacts.n_records - 1; k >= 0 && may_merge && list[k].t_on == run->t; k--)
         if (list[k].joint == impact->joint && list[k].t_off == run->t) {
             list[k].F_peak += impact->F_peak;
             return 0;
@@ -165,9 +165,9 @@ static inline int set_rigid_contact(Integrator *run, int joint, int is_closed)
     run->contacts.is_compressing[joint] = 0;
     if (is_closed) {
         contact->deltadot_minus = 0.0;
-        for (int k = run->contacts.n_impacts - 1; k >= 0 && run->contacts.impacts[k].t_on == run->t; k--)
-            if (run->contacts.impacts[k].joint == joint)
-                contact->deltadot_minus = run->contacts.impacts[k].deltadot;
+        for (int k = run->contacts.n_records - 1; k >= 0 && run->contacts.records[k].t_on == run->t; k--)
+            if (run->contacts.records[k].joint == joint)
+                contact->deltadot_minus = run->contacts.records[k].deltadot;
         start_contact_record(run, joint, run->t, contact->deltadot_minus);
         return 0;
     }
@@ -212,11 +212,11 @@ int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double
     Contacts *contacts = &((Integrator *)integrator)->contacts;
     for (int i = 0; include_open && !contacts->ongoing_listed && i < N_CLEARANCES; i++)
         if (run->discrete.contact[i].closed)
-            contacts->impacts[contacts->n_impacts++] = contacts->ongoing[i];
+            contacts->records[contacts->n_records++] = contacts->ongoing[i];
     contacts->ongoing_listed = include_open;
-    const int n = contacts->n_impacts < capacity ? contacts->n_impacts : capacity;
+    const int n = contacts->n_records < capacity ? contacts->n_records : capacity;
     for (int i = 0; i < n; i++, values += N_IMPACT_COLUMNS) {
-        const Impact *impact = &contacts->impacts[i];
+        const ContactRecord *impact = &contacts->records[i];
         values[IMPACT_t_on] = impact->t_on;
         values[IMPACT_t_off] = impact->t_off;
         values[IMPACT_deltadot] = impact->deltadot;
@@ -224,7 +224,7 @@ int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double
         values[IMPACT_t_peak] = impact->t_peak;
         joints[i] = impact->joint;
     }
-    contacts->n_impacts -= n;
-    memmove(contacts->impacts, contacts->impacts + n, (size_t)contacts->n_impacts * sizeof contacts->impacts[0]);
+    contacts->n_records -= n;
+    memmove(contacts->records, contacts->records + n, (size_t)contacts->n_records * sizeof contacts->records[0]);
     return n;
 }

@@ -3,9 +3,9 @@
  * where the slip reaches zero or the force of stick reaches its limit: at the zero of
  * evaluate_friction_event_function() on the step.
  *
- * Modes of an element (DiscreteState.mode): 0 sticks, with the force that keeps its slip at zero; 1 or -1 slips in
- * that direction against its kinetic force; MODE_HELD (2) is at rest without a force, because drives or other friction
- * elements hold its slip at zero.
+ * Modes of an element (DiscreteState.mode): 0 sticks, with the force that keeps its slip at zero; 1 or -1 slips in that
+ * direction against its kinetic force; MODE_CONSTRAINED (2) is at rest without a force, because drives or other
+ * friction elements hold its slip at zero.
  */
 #if N_FRICTIONS
 #define MAX_STICK_RESIDUAL (10.0 * MAX_STICK_SPEED) /* m/s: of a sticking element, by errors of integration */
@@ -15,12 +15,12 @@ enum { MAX_MODE_PASSES = 8 + 4 * N_FRICTIONS };
 /*
  * Return the event function of a friction element, positive while its mode (stick or slip) lasts. In stick: static
  * limit minus |force| in N. In slip: the slip velocity in its direction plus SLIP_ROUNDING, m/s. Held by other
- * constraints (MODE_HELD): MAX_STICK_SPEED minus |slip|, m/s.
+ * constraints (MODE_CONSTRAINED): MAX_STICK_SPEED minus |slip|, m/s.
  */
 static double evaluate_friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
     const Friction *friction = &rhs->friction[element];
-    if (discrete->mode[element] == MODE_HELD)
+    if (discrete->mode[element] == MODE_CONSTRAINED)
         return MAX_STICK_SPEED - fabs(friction->v);
     if (discrete->mode[element] == 0.0)
         return friction->static_limit - fabs(friction->force);
@@ -29,14 +29,14 @@ static double evaluate_friction_event_function(const DiscreteState *discrete, co
 
 /*
  * Evaluate the right-hand side at the current state with the current friction modes, into run->dy and run->rhs. A
- * sticking element whose pivot vanishes is already held by a drive or another sticking element: it becomes MODE_HELD,
- * without force, and the evaluation is repeated. Return 0 or a status.
+ * sticking element whose pivot vanishes is already constrained by a drive or another sticking element: it becomes
+ * MODE_CONSTRAINED, without force, and the evaluation is repeated. Return 0 or a status.
  */
 static int evaluate_rates_with_friction_modes(Integrator *run, const Parameters *p)
 {
     int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
-        run->discrete.mode[friction_of_pivot[status - N_LOOPS - 1]] = MODE_HELD;
+        run->discrete.mode[friction_of_pivot[status - N_LOOPS - 1]] = MODE_CONSTRAINED;
         status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     return status;
@@ -51,7 +51,7 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 {
     const DiscreteState discrete = run->discrete;
     for (int i = 0; i < N_FRICTIONS; i++)
-        if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= MAX_STICK_SPEED)
+        if (run->discrete.mode[i] != MODE_CONSTRAINED && fabs(run->rhs.friction[i].v) <= MAX_STICK_SPEED)
             run->discrete.mode[i] = 0.0;
     const int status = evaluate_rates_with_friction_modes(run, p);
     if (!status)
@@ -63,14 +63,14 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 /*
  * Correct the friction mode with the largest violation (modes: DiscreteState in scene/types.h) and return whether there
  * was one. Violations are a sticking force beyond its limit (relative to it), or a slip from rest against its own rate
- * (1). A sticking element then slips against its force; a slipping one sticks; a held one (MODE_HELD: at rest, without
- * force) slips in the direction of its rate. If an element would start to slip while another is held without violation,
- * the held one gets that slip direction instead, so that its force acts first. Called in each pass of
- * iterate_friction_modes() after the right-hand side.
+ * (1). A sticking element then slips against its force; a slipping one sticks; a constrained one (MODE_CONSTRAINED: at
+ * rest, without force) slips in the direction of its rate. If an element would start to slip while another is
+ * constrained without violation, the constrained one gets that slip direction instead, so that its force acts first.
+ * Called in each pass of iterate_friction_modes() after the right-hand side.
  */
 static int correct_worst_friction_mode(Integrator *run)
 {
-    int element = -1, held_element = -1;
+    int element = -1, constrained_element = -1;
     double largest = 1e-9, mode = 0.0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
@@ -80,10 +80,10 @@ static int correct_worst_friction_mode(Integrator *run)
             violation = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
             mode_next = friction->force > 0.0 ? -1.0 : 1.0;
         } else if (fabs(friction->v) <= MAX_STICK_SPEED && fabs(friction->rate) > MAX_STICK_SPEED) {
-            violation = mode_now == MODE_HELD || mode_now * friction->rate < 0.0 ? 1.0 : 0.0;
-            mode_next = mode_now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
+            violation = mode_now == MODE_CONSTRAINED || mode_now * friction->rate < 0.0 ? 1.0 : 0.0;
+            mode_next = mode_now != MODE_CONSTRAINED ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
-        held_element = mode_now == MODE_HELD && violation == 0.0 ? i : held_element;
+        constrained_element = mode_now == MODE_CONSTRAINED && violation == 0.0 ? i : constrained_element;
         if (violation > largest) {
             element = i;
             largest = violation;
@@ -91,7 +91,7 @@ static int correct_worst_friction_mode(Integrator *run)
         }
     }
     if (element >= 0)
-        run->discrete.mode[mode != 0.0 && held_element >= 0 ? held_element : element] = mode;
+        run->discrete.mode[mode != 0.0 && constrained_element >= 0 ? constrained_element : element] = mode;
     return element >= 0;
 }
 
@@ -104,7 +104,7 @@ static int correct_worst_friction_mode(Integrator *run)
 static int iterate_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
-        if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= MAX_STICK_SPEED)
+        if (run->discrete.mode[i] == MODE_CONSTRAINED && fabs(run->rhs.friction[i].v) <= MAX_STICK_SPEED)
             run->discrete.mode[i] = 0.0;
     for (int i = 0; i < MAX_MODE_PASSES; i++) {
         const int status = evaluate_rates_with_friction_modes(run, p);
@@ -116,8 +116,8 @@ static int iterate_friction_modes(Integrator *run, const Parameters *p)
 
 /*
  * Change the mode of each friction element whose event function is not positive, count these changes, then iterate all
- * modes to a consistent set. Stick changes to slip against the force; slip changes to stick; a held element slips.
- * Return 0 or a status. Called at an event of friction.
+ * modes to a consistent set. Stick changes to slip against the force; slip changes to stick; a constrained element
+ * slips. Return 0 or a status. Called at an event of friction.
  */
 static int change_friction_modes(Integrator *run, const Parameters *p)
 {
@@ -130,7 +130,7 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
             *mode = friction->force > 0.0 ? -1.0 : 1.0;
         else
-            *mode = *mode == MODE_HELD ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
+            *mode = *mode == MODE_CONSTRAINED ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
     }
     const int status = remove_slips_at_rest(run, p);
     return status ? status : iterate_friction_modes(run, p);

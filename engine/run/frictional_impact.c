@@ -25,14 +25,15 @@ typedef struct {
 } FrictionImpulses;
 
 /*
- * Set all contacts of a discrete state to be frictionless (`smooth`), and their prescribed tangential forces (`along`)
- * to zero. Called for impacts and the projection of contacts, on a copy or on a state that is restored.
+ * Set all contacts of a discrete state to be frictionless (`is_frictionless`), and their prescribed tangential forces
+ * (`tangential_force`) to zero. Called for impacts and the projection of contacts, on a copy or on a state that is
+ * restored.
  */
 static void disable_friction(DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
-        discrete->contact[i].smooth = 1;
-        discrete->contact[i].along = 0.0;
+        discrete->contact[i].is_frictionless = 1;
+        discrete->contact[i].tangential_force = 0.0;
     }
 }
 
@@ -48,18 +49,19 @@ static int diagnose_stall(const Integrator *run, int default_status, const Param
 {
     double force[2][N_RIGID], max_force[2] = {0.0, 0.0};
     int has_lost_force = 0;
-    for (int smooth = 0; smooth < 2; smooth++) {
+    for (int is_frictionless = 0; is_frictionless < 2; is_frictionless++) {
         DiscreteState discrete = run->discrete;
         Delassus contacts;
         contacts.n = list_closed_contacts(&discrete, contacts.joint);
-        if (smooth)
+        if (is_frictionless)
             disable_friction(&discrete);
         if (compute_delassus(evaluate_motion_with_internal_states, N_Y, run->t, run->y, &discrete, p, &contacts))
             return default_status;
-        solve_contact_subset(&contacts, NULL, contacts.r, force[smooth]);
+        solve_contact_subset(&contacts, NULL, contacts.r, force[is_frictionless]);
         for (int k = 0; k < contacts.n; k++) {
-            max_force[smooth] = max_of(max_force[smooth], fabs(force[smooth][k]));
-            has_lost_force |= smooth && force[0][k] == 0.0 && force[1][k] != 0.0; /* the others took all of D */
+            max_force[is_frictionless] = max_of(max_force[is_frictionless], fabs(force[is_frictionless][k]));
+            /* the others took all of D */
+            has_lost_force |= is_frictionless && force[0][k] == 0.0 && force[1][k] != 0.0;
         }
     }
     return has_lost_force || max_force[0] > INCONSISTENT_RATIO * max_force[1] ? FRICTION_INCONSISTENT : default_status;
@@ -103,7 +105,7 @@ static int compute_slips_after_impact(Integrator *run, const Delassus *impact, c
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int k = 0; k < impact->n; k++) {
-        discrete.contact[impact->joint[k]].smooth = 0;
+        discrete.contact[impact->joint[k]].is_frictionless = 0;
         discrete.contact[impact->joint[k]].force = unit_force;
         for (int i = 0; i < N_X; i++)
             y[N_X + i] += impact->response[k][N_X + i] * impulse[k];
@@ -126,20 +128,20 @@ static int compute_slips_after_impact(Integrator *run, const Delassus *impact, c
 static int compute_tangential_response(Integrator *run, const Delassus *impact, int contact, const double *base_rates,
     const RhsOutputs *rhs_base, double unit_impulse, const Parameters *p, FrictionImpulses *friction)
 {
-    double rates_pushed[N_Y], y[N_Y];
+    double rates_with_impulse[N_Y], y[N_Y];
     DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
-    discrete.contact[impact->joint[contact]].along = unit_impulse;
+    discrete.contact[impact->joint[contact]].tangential_force = unit_impulse;
     count_evaluations(run, 2);
-    int status = evaluate_motion_with_internal_states(run->t, run->y, &discrete, p, rates_pushed, &rhs);
-    discrete.contact[impact->joint[contact]].along = 0.0;
+    int status = evaluate_motion_with_internal_states(run->t, run->y, &discrete, p, rates_with_impulse, &rhs);
+    discrete.contact[impact->joint[contact]].tangential_force = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int i = 0; i < N_X; i++) {
-        friction->velocity[contact][i] = (rates_pushed[N_X + i] - base_rates[N_X + i]) / unit_impulse;
+        friction->velocity[contact][i] = (rates_with_impulse[N_X + i] - base_rates[N_X + i]) / unit_impulse;
         y[N_X + i] += friction->velocity[contact][i] * unit_impulse;
     }
-    status = status ? status : evaluate_motion_with_internal_states(run->t, y, &discrete, p, rates_pushed, &rhs);
+    status = status ? status : evaluate_motion_with_internal_states(run->t, y, &discrete, p, rates_with_impulse, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const int i = impact->joint[k];
         friction->gap_rate[k][contact] = (rhs.clearance[i].deltadot - rhs_base->clearance[i].deltadot) / unit_impulse;

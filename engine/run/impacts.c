@@ -99,7 +99,7 @@ static int resolve_impact(
     Delassus impact = {0};
     FrictionImpulses friction;
     double approach_speed[N_RIGID], rebound_sum[N_RIGID], impulse[N_RIGID];
-    const DiscreteState known_state = run->discrete;
+    const DiscreteState state_before = run->discrete;
     const double min_rate = compute_gap_rate_tolerance(run, p), gap = compute_gap_tolerance(run, p);
     int has_impact = 0;
     *energy = 0.0;
@@ -119,13 +119,13 @@ static int resolve_impact(
         has_impact |= approaches;
     }
     for (int i = 0; i < N_FRICTIONS; i++)
-        run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
+        run->discrete.mode[i] = MODE_CONSTRAINED; /* without force: friction elements have no impulse */
     disable_friction(&run->discrete);
     int status = has_impact ? compute_current_delassus(run, p, &impact) : 0;
     status = !status && has_impact ? solve_complementarity(&impact, rebound_sum, impulse) : status;
     status = !status && has_impact ? compute_friction_impulses(run, &impact, approach_speed, impulse, p, &friction)
         : status;
-    run->discrete = known_state;
+    run->discrete = state_before;
     if (status || !has_impact)
         return status;
     apply_impulses(run, &impact, impulse, approach_speed, &friction, p);
@@ -134,9 +134,9 @@ static int resolve_impact(
         const int i = impact.joint[k];
         const double u = approach_speed[k] > compute_resting_speed_limit(min_rate, p, i) ? approach_speed[k]
             : 0.0; /* 0: a resting contact */
-        const Impact listed = {run->t, run->t, u, impulse[k], run->t, i};
+        const ContactRecord listed = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = append_impact(run, &listed, n_impacts_before >= N_LISTED_PASSES, !known_state.contact[i].closed);
+            status = append_impact(run, &listed, n_impacts_before >= N_LISTED_PASSES, !state_before.contact[i].closed);
         *energy += impulse[k] * u;
     }
     return status ? status : update_modes_after_impact(run, p);
@@ -151,7 +151,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
 {
     unsigned char is_resting[N_CLEARANCES], has_force[N_CLEARANCES] = {0};
     double force[N_RIGID];
-    const DiscreteState known_state = run->discrete;
+    const DiscreteState state_before = run->discrete;
     const double min_rate = compute_gap_rate_tolerance(run, p);
     Delassus contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -171,7 +171,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
     for (int k = 0; k < contacts.n && !status; k++)
         has_force[contacts.joint[k]] = force[k] > 0.0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        run->discrete.contact[i].closed = known_state.contact[i].closed;
+        run->discrete.contact[i].closed = state_before.contact[i].closed;
     for (int i = 0; i < N_CLEARANCES && !status; i++)
         if (!is_compliant(i))
             status = set_rigid_contact(run, i, has_force[i]);

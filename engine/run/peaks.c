@@ -89,22 +89,22 @@ static void record_peak_within_step(Integrator *run, const Step *step, double fr
             drop_right = f[2] - f[1];
         const double curvature = drop_right * width_left + drop_left * width_right,
             rise = drop_right * width_left * width_left - drop_left * width_right * width_right;
-        double top = drop_left > drop_right ? x[0] : x[2];
+        double x_peak = drop_left > drop_right ? x[0] : x[2];
         if (curvature < 0.0)
-            top = x[1] - 0.5 * rise / curvature;
-        top = min_of(x[2] - 0.1 * width_right, max_of(x[0] + 0.1 * width_left, top));
-        const double offset = top - x[1], expected = f[1]
+            x_peak = x[1] - 0.5 * rise / curvature;
+        x_peak = min_of(x[2] - 0.1 * width_right, max_of(x[0] + 0.1 * width_left, x_peak));
+        const double offset = x_peak - x[1], expected = f[1]
             + offset * (rise + curvature * offset) / (width_left * width_right * (width_left + width_right));
         const double largest = max_of(f[1], max_of(f[0], f[2]));
         if (curvature < 0.0 && expected - largest + 0.1 * error < tolerance * largest)
             break;
-        const double force = evaluate_and_record_joint_force(run, step, top, joint, p);
-        const int above = top > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
+        const double force = evaluate_and_record_joint_force(run, step, x_peak, joint, p);
+        const int above = x_peak > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
         error = fabs(force - expected);
-        x[end] = higher ? x[1] : top;
+        x[end] = higher ? x[1] : x_peak;
         f[end] = higher ? f[1] : force;
         if (higher)
-            x[1] = top, f[1] = force;
+            x[1] = x_peak, f[1] = force;
     }
 }
 
@@ -154,25 +154,26 @@ static void record_rigid_peak(
         (SampledPart){{middle, evaluate_and_record_joint_force(run, step, middle, joint, p), NAN},
             {fraction, force_end, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
-        const SampledPart now = part[n - 1];
+        const SampledPart current_part = part[n - 1];
         const double largest_known = max_of(run->contacts.ongoing[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
-        const double width = now.end.s - from.s;
-        const double slope = 0.5 * (now.end.f - from.f), curvature = from.f - 2.0 * now.middle.f + now.end.f;
-        const double top = curvature < 0.0 && fabs(slope) < -curvature ? now.middle.f - 0.5 * slope * slope / curvature
-            : max_of(from.f, now.end.f);
-        const int is_clear = !(top + now.error > largest_known)
-            && !may_terms_oscillate_between(step, from.s, now.end.s, p);
+        const double width = current_part.end.s - from.s;
+        const double slope = 0.5 * (current_part.end.f - from.f);
+        const double curvature = from.f - 2.0 * current_part.middle.f + current_part.end.f;
+        const double parabola_maximum = curvature < 0.0 && fabs(slope) < -curvature
+            ? current_part.middle.f - 0.5 * slope * slope / curvature : max_of(from.f, current_part.end.f);
+        const int is_clear = !(parabola_maximum + current_part.error > largest_known)
+            && !may_terms_oscillate_between(step, from.s, current_part.end.s, p);
         if (is_clear || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES) {
-            from = now.end;
+            from = current_part.end;
             n--;
             continue;
         }
-        const double fractions[2] = {from.s + 0.25 * width, now.end.s - 0.25 * width};
+        const double fractions[2] = {from.s + 0.25 * width, current_part.end.s - 0.25 * width};
         const Sample left = {fractions[0], evaluate_and_record_joint_force(run, step, fractions[0], joint, p), NAN};
         const Sample right = {fractions[1], evaluate_and_record_joint_force(run, step, fractions[1], joint, p), NAN};
-        const double error = estimate_error_of_halves(from, now, left, right);
-        part[n - 1] = (SampledPart){right, now.end, error};
-        part[n++] = (SampledPart){left, now.middle, error};
+        const double error = estimate_error_of_halves(from, current_part, left, right);
+        part[n - 1] = (SampledPart){right, current_part.end, error};
+        part[n++] = (SampledPart){left, current_part.middle, error};
         samples += 2;
     }
 }
@@ -204,21 +205,22 @@ static void record_largest_eccentricity(Integrator *run, Step *step, double frac
     double low_fraction = 0.0, high_fraction = fraction;
     for (int n = 0; n < 6 && clearance_low.deltadot > 0.0 && clearance_high.deltadot < 0.0; n++) {
         const double h = (high_fraction - low_fraction) * step->h;
-        double top;
-        const double round = clearance_low.e - get_outward_coordinate(&clearance_low); /* 0 without a contour */
+        double cubic_maximum;
+        /* 0 without a contour */
+        const double contour_offset = clearance_low.e - get_outward_coordinate(&clearance_low);
         const double s = low_fraction
             + (high_fraction - low_fraction)
                 * find_cubic_maximum(get_outward_coordinate(&clearance_low), h * clearance_low.deltadot,
-                    get_outward_coordinate(&clearance_high), h * clearance_high.deltadot, &top);
+                    get_outward_coordinate(&clearance_high), h * clearance_high.deltadot, &cubic_maximum);
         RhsOutputs rhs;
-        if (top + round < run->contacts.e_max[joint] - 0.01 * fabs(run->contacts.e_max[joint])
+        if (cubic_maximum + contour_offset < run->contacts.e_max[joint] - 0.01 * fabs(run->contacts.e_max[joint])
             || compute_dense_output(run, p, step) || evaluate_contacts_in_step(run, step, s, p, &rhs))
             return;
         const Clearance *clearance = &rhs.clearance[joint];
         if (run->envelope.rows)
             extend_path_envelope(run, joint, step->t + s * step->h, clearance);
         update_largest_eccentricity(run, joint, clearance->e);
-        if (fabs(get_outward_coordinate(clearance) - top) < 1e-9 * fabs(top + round))
+        if (fabs(get_outward_coordinate(clearance) - cubic_maximum) < 1e-9 * fabs(cubic_maximum + contour_offset))
             return;
         if (clearance->deltadot > 0.0)
             low_fraction = s, clearance_low = *clearance;

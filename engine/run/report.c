@@ -44,7 +44,7 @@ int gudgeon_run_has_full_buffers(const void *integrator) { return has_full_buffe
 int gudgeon_run_count_listed(const void *integrator)
 {
     const Integrator *run = integrator;
-    int count = run->contacts.n_impacts + run->events.n;
+    int count = run->contacts.n_records + run->events.n;
     for (int i = 0; i < N_CLEARANCES; i++)
         count += run->discrete.contact[i].closed;
     return count;

@@ -181,7 +181,7 @@ static double compute_kinetic_energy(const Integrator *run, const Parameters *p)
 /* Return whether Python must fetch the lists of contacts and events, or the step record, before the next step. */
 static int has_full_buffers(const Integrator *run)
 {
-    return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
+    return run->contacts.n_records >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
 }
 
 /*

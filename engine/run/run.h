@@ -30,7 +30,7 @@ enum {
 typedef struct {
     double t_on, t_off, deltadot, F_peak, t_peak;
     int joint;
-} Impact;
+} ContactRecord;
 
 /*
  * A row of the envelope, for plots of all steps in bounded memory. A row covers `stride` successive steps; when the
@@ -81,7 +81,7 @@ enum {
 /* Ratio of two step lengths above which they count as equal. */
 #define EQUAL_LENGTH_RATIO (1.0 - 1e-9)
 /* Weight of the mean length of the steps of a method before the last one. */
-#define LENGTH_MEMORY 0.8
+#define MEAN_LENGTH_WEIGHT 0.8
 /* Relative step length below which a step counts as too short to advance. */
 #define SHORT_STEP_FRACTION (256.0 * MIN_STEP_FRACTION)
 
@@ -107,15 +107,15 @@ typedef struct {
     int n_stored_stages;
     double node[N_STAGES], stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)];
     double min_event_value[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    /* watched event functions at equidistant points of the step (watch/dense_samples.c) */
-    double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1];
+    /* monitored event functions at equidistant points of the step (watch/dense_samples.c) */
+    double sample[AT_LEAST_ONE(N_MONITORED)][N_SAMPLES + 1];
     unsigned char is_ignored[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
     double branch_error; /* largest effect of wrong branches on the step, in tolerances; infinite: not known */
-    /* bracket of a zero of each watched function: its ends, and the values there */
-    double bracket_begin[AT_LEAST_ONE(N_WATCHED)], bracket_end[AT_LEAST_ONE(N_WATCHED)];
-    double value_at_begin[AT_LEAST_ONE(N_WATCHED)], value_at_end[AT_LEAST_ONE(N_WATCHED)];
-    double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if watched */
-    unsigned char may_be_zero[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
+    /* bracket of a zero of each monitored function: its ends, and the values there */
+    double bracket_begin[AT_LEAST_ONE(N_MONITORED)], bracket_end[AT_LEAST_ONE(N_MONITORED)];
+    double value_at_begin[AT_LEAST_ONE(N_MONITORED)], value_at_end[AT_LEAST_ONE(N_MONITORED)];
+    double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if monitored */
+    unsigned char may_be_zero[AT_LEAST_ONE(N_MONITORED)], has_zero_bracket;
     double gap_rate_range[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
     double term_range[AT_LEAST_ONE(N_TERMS)];     /* range of terms of time alone over the step; -1: unknown */
     int may_force_oscillate;                      /* whether a force may oscillate between stages (watch/forces.c) */
@@ -138,7 +138,7 @@ typedef struct {
 
 /* The attempts at one step until a step is accepted (methods/step_length.c). */
 typedef struct {
-    double h, first_h, time_left;    /* s: length tried now; of the first attempt; time left to the end of the run */
+    double h, first_h, remaining_time; /* s: length tried now; of the first attempt; time to the end of the run */
     double time_magnitude, rejected_h; /* s: magnitude of the times; length of the last rejected attempt */
     double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
     int is_open, lane_method, was_rejected; /* whether attempts continue; method in lanes; whether one was rejected */
@@ -170,12 +170,12 @@ typedef struct {
  * Written by: run/contacts.c, run/joint_maxima.h. Copied by: batch/lane_controlled_steps.c.
  */
 typedef struct {
-    Impact ongoing[AT_LEAST_ONE(N_CLEARANCES)];    /* contact that lasts in each joint: closed, not yet listed */
+    ContactRecord ongoing[AT_LEAST_ONE(N_CLEARANCES)]; /* contact that lasts in each joint: closed, not yet listed */
     int is_compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
     int is_rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
-    Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
-    int n_impacts, ongoing_listed;
+    ContactRecord records[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
+    int n_records, ongoing_listed;
     long onsets;
     double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
 } Contacts;
@@ -305,8 +305,8 @@ typedef struct {
  */
 typedef struct {
     double time_resolution; /* s: resolution of the times of events; smaller in a short run */
-    int crossed, suppressed_switch; /* last crossed switching function; not watched in the next step; -1: none */
-    double t_crossed, suppression_length; /* s: time of that crossing; step length after which it is watched again */
+    int crossed, suppressed_switch; /* last crossed switching function; not monitored in the next step; -1: none */
+    double t_crossed, suppression_length; /* s: time of that crossing; step length after which it is monitored again */
     DenseSamples samples;
 } RootFinding;
 

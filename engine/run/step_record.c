@@ -4,8 +4,8 @@
  */
 enum {
     RECORD_ROW = N_RECORD_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
-    RECORD_PARTS = 4,             /* parts of a step, whose ends are recorded */
-    MAX_ROWS_PER_STEP = 4 * RECORD_PARTS /* largest number of rows of one step */
+    RECORD_INTERVALS = 4,             /* parts of a step, whose ends are recorded */
+    MAX_ROWS_PER_STEP = 4 * RECORD_INTERVALS /* largest number of rows of one step */
 };
 #define JUMP_OFFSET 1e-9 /* of a step: distance of the rows just before and after a jump */
 
@@ -22,15 +22,15 @@ static int is_record_full(const Integrator *run)
 static void append_record_row(Integrator *run, double t, const double *y, const Parameters *p)
 {
     StepRecord *step_record = &run->step_record;
-    signed char state[AT_LEAST_ONE(N_CLEARANCES)] = {0};
+    signed char contact_codes[AT_LEAST_ONE(N_CLEARANCES)] = {0};
     if (!step_record->rows || step_record->n >= step_record->capacity)
         return;
     double *row = step_record->rows + RECORD_ROW * step_record->n++, *discrete = row + N_RECORD_HEAD + N_S;
     row[RECORD_JUMPED] = step_record->jumped;
     row[RECORD_T] = t;
-    store_sample(run, t, y, p, 0, row + N_RECORD_HEAD, discrete, state);
+    store_sample(run, t, y, p, 0, row + N_RECORD_HEAD, discrete, contact_codes);
     for (int i = 0; i < N_CLEARANCES; i++)
-        discrete[AT_LEAST_ONE(N_DISCRETE) + i] = state[i];
+        discrete[AT_LEAST_ONE(N_DISCRETE) + i] = contact_codes[i];
     step_record->jumped = 0;
 }
 

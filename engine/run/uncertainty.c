@@ -2,7 +2,7 @@
  * Uncertainty of event and switching functions: the effect of rounding and of constraint residuals of the state. A
  * function smaller than its uncertainty has no sign and keeps its branch.
  */
-#if N_WATCHED
+#if N_MONITORED
 #define OBSERVED_FACTOR 16.0 /* factor on observed differences, which may consist of rounding only */
 
 /*
@@ -81,49 +81,49 @@ static void add_residual_slips(Integrator *run, double t, const double *y, const
 #endif
 
 /*
- * Return the value of watched function number `index`, a switching function or a user-defined event, not multiplied by
- * its branch or sign.
+ * Return the value of monitored function number `index`, a switching function or a user-defined event, not multiplied
+ * by its branch or sign.
  */
-static inline double get_watched_value(const RhsOutputs *rhs, int index)
+static inline double get_monitored_value(const RhsOutputs *rhs, int index)
 {
-    const int k = watched[index] - N_CLEARANCES;
+    const int k = monitored_event[index] - N_CLEARANCES;
     return k < N_SWITCHES ? rhs->g[k] : rhs->event[k - N_SWITCHES - N_FRICTIONS];
 }
 
 #if KNOWN_BOUNDS
 /*
- * Estimate how much errors of the state (2 N_X) change each watched function, by interval arithmetic: uncertainty
- * (N_WATCHED), 0 if the bounds contain a pole.
+ * Estimate how much errors of the state (2 N_X) change each monitored function, by interval arithmetic: uncertainty
+ * (N_MONITORED), 0 if the bounds contain a pole.
  */
-static void estimate_watched_function_errors(
+static void estimate_monitored_function_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
     estimate_error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, uncertainty);
 }
 #else
 /*
- * Estimate how much errors of the state (2 N_X) change each watched function, because no interval bounds are known.
- * uncertainty (N_WATCHED): the sum of finite differences for four patterns of error signs; 0 if the evaluation at y
+ * Estimate how much errors of the state (2 N_X) change each monitored function, because no interval bounds are known.
+ * uncertainty (N_MONITORED): the sum of finite differences for four patterns of error signs; 0 if the evaluation at y
  * fails. The differences are taken for errors divided by OBSERVED_FACTOR and multiplied by it again. A pattern whose
  * evaluation fails, or whose change is not finite, is omitted.
  */
-static void estimate_watched_function_errors(
+static void estimate_monitored_function_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
 {
     double y_perturbed[N_Y], dy[N_Y];
     RhsOutputs rhs, rhs_perturbed;
     const int failed = evaluate_run_rhs(run, t, y, p, dy, &rhs);
     memcpy(y_perturbed, y, sizeof y_perturbed);
-    for (int i = 0; i < N_WATCHED; i++)
+    for (int i = 0; i < N_MONITORED; i++)
         uncertainty[i] = 0.0;
     for (int pattern = 0; pattern < 8 && !failed; pattern = pattern ? 2 * pattern : 1) {
         for (int k = 0; k < 2 * N_X; k++)
             y_perturbed[k] = y[k] + (k & pattern ? -error[k] : error[k]) / OBSERVED_FACTOR;
         if (evaluate_run_rhs(run, t, y_perturbed, p, dy, &rhs_perturbed))
             continue;
-        for (int i = 0; i < N_WATCHED; i++) {
-            const double change = OBSERVED_FACTOR * fabs(get_watched_value(&rhs_perturbed, i)
-                - get_watched_value(&rhs, i));
+        for (int i = 0; i < N_MONITORED; i++) {
+            const double change = OBSERVED_FACTOR * fabs(get_monitored_value(&rhs_perturbed, i)
+                - get_monitored_value(&rhs, i));
             uncertainty[i] += isfinite(change) ? change : 0.0;
         }
     }
@@ -131,9 +131,9 @@ static void estimate_watched_function_errors(
 #endif
 
 /*
- * Estimate how much rounding, constraint residuals and residual slips of the state y at time t (s) change each watched
- * function: uncertainty (N_WATCHED). A value below its uncertainty has no sign. Called when a value near zero must be
- * distinguished from rounding.
+ * Estimate how much rounding, constraint residuals and residual slips of the state y at time t (s) change each
+ * monitored function: uncertainty (N_MONITORED). A value below its uncertainty has no sign. Called when a value near
+ * zero must be distinguished from rounding.
  */
 static void estimate_rounding_uncertainty(
     Integrator *run, double t, const double *y, const Parameters *p, double *uncertainty)
@@ -141,7 +141,7 @@ static void estimate_rounding_uncertainty(
     double error[2 * N_X + 1];
     estimate_state_errors(run, t, y, p, error);
     add_residual_slips(run, t, y, p, error);
-    estimate_watched_function_errors(run, t, y, error, p, uncertainty);
+    estimate_monitored_function_errors(run, t, y, error, p, uncertainty);
 }
 
 /*
@@ -152,7 +152,7 @@ static void estimate_rounding_uncertainty(
 static void evaluate_significant_events(
     Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)
 {
-    double error[AT_LEAST_ONE(N_WATCHED)];
+    double error[AT_LEAST_ONE(N_MONITORED)];
     int has_new_sign = 0;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         values[i] = rhs->event[i];
@@ -162,19 +162,19 @@ static void evaluate_significant_events(
         return;
     estimate_rounding_uncertainty(run, t, y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if (fabs(values[i]) <= error[N_WATCHED - N_USER_EVENTS + i])
+        if (fabs(values[i]) <= error[N_MONITORED - N_USER_EVENTS + i])
             values[i] = 0.0;
 }
 
 #else
-/* Do nothing: the scene has no watched functions, so no user-defined events. */
+/* Do nothing: the scene has no monitored functions, so no user-defined events. */
 static inline void evaluate_significant_events(
     const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)
 {
     (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)values;
 }
 
-/* Do nothing: the scene has no watched functions. */
+/* Do nothing: the scene has no monitored functions. */
 static inline void estimate_rounding_uncertainty(const Integrator *run, double t, const double *y, const Parameters *p,
     double *uncertainty)
 {

@@ -164,7 +164,7 @@ static double compute_coincidence_time(const Integrator *run, double fixed_step)
 static int compute_event_signs_just_after(Integrator *run, double fixed_step, const Parameters *p, signed char *signs)
 {
     const double h = compute_coincidence_time(run, fixed_step);
-    double error[N_WATCHED], value_later[N_USER_EVENTS];
+    double error[N_MONITORED], value_later[N_USER_EVENTS];
     int has_unknown = 0;
     RhsOutputs rhs_after;
     const int status = evaluate_rates_just_after(run, h, p, &rhs_after);
@@ -173,7 +173,7 @@ static int compute_event_signs_just_after(Integrator *run, double fixed_step, co
     estimate_rounding_uncertainty(run, run->t, run->y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double value_after = rhs_after.event[i];
-        signs[i] = (signed char)(fabs(value_after) > error[N_WATCHED - N_USER_EVENTS + i]
+        signs[i] = (signed char)(fabs(value_after) > error[N_MONITORED - N_USER_EVENTS + i]
             ? (value_after > 0.0) - (value_after < 0.0) : 0);
         has_unknown |= !signs[i];
     }
@@ -250,7 +250,7 @@ typedef struct {
 
 /*
  * Return a copy of the discrete state, state, rates and event functions of a run, before an event changes them. Called
- * by apply_event(), which passes it to record_arrivals_at_zero().
+ * by apply_event(), which passes it to record_events_at_constraint().
  */
 static StateBeforeEvent copy_state_before_event(const Integrator *run)
 {
@@ -267,30 +267,37 @@ static StateBeforeEvent copy_state_before_event(const Integrator *run)
  */
 static int has_new_constraint(const DiscreteState *discrete_before, const DiscreteState *discrete_after)
 {
-    int is_held = 0;
+    int is_new = 0;
     for (int i = 0; i < N_FRICTIONS; i++)
-        is_held |= discrete_after->mode[i] == 0.0 && discrete_before->mode[i] != 0.0;
+        is_new |= discrete_after->mode[i] == 0.0 && discrete_before->mode[i] != 0.0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        is_held |= !is_compliant(i) && discrete_after->contact[i].closed && !discrete_before->contact[i].closed;
-    return is_held;
+        is_new |= !is_compliant(i) && discrete_after->contact[i].closed && !discrete_before->contact[i].closed;
+    return is_new;
 }
 
 /*
- * Record event functions that reach zero and are held there by a contact or friction since an event, unless they were
- * at zero before; their sign becomes 0. A function with sign 0 that moves again gets its sign without an event. Whether
- * it moves follows from its value `duration` seconds later, compared with that without the event. An arrival is
- * recorded only in the direction that the event counts. Nothing is done if nothing new is held and no sign is 0. Return
- * ENDED if a recorded event ends the run, else 0. Called by apply_event() after all changes.
+ * Record event functions that reach zero because an event has added a constraint that keeps them there: a closed rigid
+ * contact or a stick. Nothing is done if no constraint is new and no stored sign is 0. Each function is compared at
+ * `duration` seconds later with its value there without the event:
+ *
+ * 1. A function with the stored sign 0 that moves from zero gets its sign. No event is recorded.
+ *
+ * 2. A function that is zero with a new constraint and was not zero before gets the sign 0. If it would have crossed
+ * zero or has just reached it, an event is recorded, if the event counts this direction.
+ *
+ * 3. A function that was zero before stays as it is.
+ *
+ * Return ENDED if a recorded event ends the run, else 0. Called by apply_event() after all changes.
  */
-static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
+static int record_events_at_constraint(Integrator *run, const StateBeforeEvent *state_before, double duration,
     const Parameters *p)
 {
-    double error[N_WATCHED], value_after[N_USER_EVENTS], value_without[N_USER_EVENTS];
-    const int is_held = has_new_constraint(&state_before->discrete, &run->discrete);
+    double error[N_MONITORED], value_after[N_USER_EVENTS], value_without[N_USER_EVENTS];
+    const int has_constraint = has_new_constraint(&state_before->discrete, &run->discrete);
     int has_zero = 0, status = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
         has_zero |= run->discrete.event_sign[i] == 0;
-    if (!is_held && !has_zero)
+    if (!has_constraint && !has_zero)
         return 0;
     DiscreteState discrete = run->discrete;
     /* of the state before: slips that were just stopped count */
@@ -301,18 +308,18 @@ static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *stat
     run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         signed char *event_sign = &run->discrete.event_sign[i];
-        const double uncertain = error[N_WATCHED - N_USER_EVENTS + i];
+        const double uncertainty = error[N_MONITORED - N_USER_EVENTS + i];
         const int sign_before = *event_sign,
-                  is_moving = fabs(value_after[i]) > uncertain + 0.01 * fabs(value_without[i]);
+                  is_moving = fabs(value_after[i]) > uncertainty + 0.01 * fabs(value_without[i]);
         if (sign_before == 0 && is_moving)
             detect_event_crossing(i, event_sign, value_after[i]);
-        if (sign_before == 0 || is_moving || !is_held || !(fabs(run->rhs.event[i]) <= uncertain))
+        if (sign_before == 0 || is_moving || !has_constraint || !(fabs(run->rhs.event[i]) <= uncertainty))
             continue;
-        const int arrives = sign_before * state_before->event[i] > uncertain
-            || sign_before * value_without[i] < -uncertain;
-        if (arrives || sign_before * value_without[i] > uncertain)
+        const int reaches_zero = sign_before * state_before->event[i] > uncertainty
+            || sign_before * value_without[i] < -uncertainty;
+        if (reaches_zero || sign_before * value_without[i] > uncertainty)
             *event_sign = 0;
-        if (arrives && event_direction[i] * sign_before <= 0 && record_user_event(run, i, run->t, run->y, p))
+        if (reaches_zero && event_direction[i] * sign_before <= 0 && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     }
     return status;
@@ -327,7 +334,7 @@ typedef struct {
 static StateBeforeEvent copy_state_before_event(const Integrator *run) { return (void)run, (StateBeforeEvent){0}; }
 
 /* Return the status 0: nothing can hold an event function at zero in this scene. */
-static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
+static int record_events_at_constraint(Integrator *run, const StateBeforeEvent *state_before, double duration,
     const Parameters *p)
 {
     return (void)run, (void)state_before, (void)duration, (void)p, 0;
@@ -346,7 +353,7 @@ int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, do
     signed char *codes)
 {
     Integrator *run = integrator;
-    const int count = run->events.n < capacity ? run->events.n : capacity, n_left = run->events.n - count;
+    const int count = run->events.n < capacity ? run->events.n : capacity, n_remaining = run->events.n - count;
     for (int i = 0; i < count; i++) {
         t[i] = run->events.t[i];
         event[i] = run->events.number[i];
@@ -356,15 +363,16 @@ int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, do
     memcpy(y, states->y, (size_t)count * sizeof states->y[0]);
     memcpy(discrete, states->discrete_states, (size_t)count * sizeof states->discrete_states[0]);
     memcpy(codes, states->contact_codes, (size_t)count * sizeof states->contact_codes[0]);
-    memmove(states->y, states->y + count, (size_t)n_left * sizeof states->y[0]);
+    memmove(states->y, states->y + count, (size_t)n_remaining * sizeof states->y[0]);
     memmove(states->discrete_states, states->discrete_states + count,
-        (size_t)n_left * sizeof states->discrete_states[0]);
-    memmove(states->contact_codes, states->contact_codes + count, (size_t)n_left * sizeof states->contact_codes[0]);
+        (size_t)n_remaining * sizeof states->discrete_states[0]);
+    memmove(states->contact_codes, states->contact_codes + count,
+        (size_t)n_remaining * sizeof states->contact_codes[0]);
 #else
     (void)y, (void)discrete, (void)codes;
 #endif
-    memmove(run->events.t, run->events.t + count, (size_t)n_left * sizeof run->events.t[0]);
-    memmove(run->events.number, run->events.number + count, (size_t)n_left * sizeof run->events.number[0]);
-    run->events.n = n_left;
+    memmove(run->events.t, run->events.t + count, (size_t)n_remaining * sizeof run->events.t[0]);
+    memmove(run->events.number, run->events.number + count, (size_t)n_remaining * sizeof run->events.number[0]);
+    run->events.n = n_remaining;
     return count;
 }

@@ -1,6 +1,6 @@
 /*
  * Error of film forces at both ends of a step: the accelerations of its dense output against those of the equations of
- * motion, relative to the effect of the films.
+ * motion, relative to the acceleration that the largest film force gives the lightest body.
  */
 #define RATE_ROUNDING (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
 #define FILM_PART 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */

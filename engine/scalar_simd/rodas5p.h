@@ -53,7 +53,7 @@ static void rodas5p_compute_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y
  * Compute the right-hand side r = f + sum_j c_sj/h u_j of the linear system of stage s, 0 ... 7, from the rates f at
  * that stage and the increments k of the earlier stages.
  */
-static void rodas5p_compute_right_side(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
+static void rodas5p_compute_stage_rhs(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
 {
     const Real inverse_h = 1.0 / h;
     switch (s) {
@@ -126,7 +126,7 @@ static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, St
                 return status;
             record_stage(run, step, &rhs, rodas5p_node[s]);
         }
-        rodas5p_compute_right_side(s, h, f, step->k, r);
+        rodas5p_compute_stage_rhs(s, h, f, step->k, r);
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages are at one time: f changes between them by J times their difference */
             for (int k = 0; k < N_MOTION; k++) {

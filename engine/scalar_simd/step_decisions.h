@@ -12,7 +12,7 @@
 #define MAX_GROWTH 6.0          /* largest ratio [1] */
 #define STABLE_GROWTH 1.1       /* largest ratio of the next length to the longest stable one */
 #define ORDER_DECAY 0.95        /* factor on the observed order of error growth after each step */
-#define LENGTH_MEMORY 0.8       /* weight of the mean length of the steps before the last one */
+#define MEAN_LENGTH_WEIGHT 0.8       /* weight of the mean length of the steps before the last one */
 #define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
 #define CURVATURE_SAFETY 2.0    /* factor on the largest second derivative of a gap that neighbouring stages show */
 #define QUARTER_STAGE_DISTANCE 0.125       /* w/4 for neighbouring stages at most w of a step apart */
@@ -49,7 +49,7 @@ static inline Real compute_length_ratio(Real error, Real error_before, Real h_rh
 /* Return the mean length of the steps of a method after one of length h (s); mean <= 0: there was none. */
 static inline Real update_mean_length(Real mean, Real h)
 {
-    return select_value(mean > 0.0, LENGTH_MEMORY * mean + (1.0 - LENGTH_MEMORY) * h, h);
+    return select_value(mean > 0.0, MEAN_LENGTH_WEIGHT * mean + (1.0 - MEAN_LENGTH_WEIGHT) * h, h);
 }
 
 /*

@@ -62,15 +62,15 @@ static Real taylor_compute_max_length_by_all_terms(const IntegratorOf *run)
  */
 static inline void taylor_evaluate_change_and_rate(const IntegratorOf *run, Real h, Real *change, Real *rate)
 {
-    const int top = run->series.order - run->series.order % 2;
+    const int last_even = run->series.order - run->series.order % 2;
     const Real square = h * h;
-    Real all[TAYLOR_Y], slope[TAYLOR_Y];
+    Real padded_change[TAYLOR_Y], padded_rate[TAYLOR_Y];
     for (int i = 0; i < N_Y; i += SERIES_PART) {
-        SeriesPart even = *(const SeriesPart *)(run->series.terms[top] + i), odd = {0.0};
+        SeriesPart even = *(const SeriesPart *)(run->series.terms[last_even] + i), odd = {0.0};
         SeriesPart even_slope = {0.0}, odd_slope = {0.0};
-        if (top < run->series.order)
-            odd = *(const SeriesPart *)(run->series.terms[top + 1] + i);
-        for (int k = top - 2; k > 0; k -= 2) {
+        if (last_even < run->series.order)
+            odd = *(const SeriesPart *)(run->series.terms[last_even + 1] + i);
+        for (int k = last_even - 2; k > 0; k -= 2) {
             even_slope = even + square * even_slope;
             odd_slope = odd + square * odd_slope;
             even = *(const SeriesPart *)(run->series.terms[k] + i) + square * even;
@@ -79,12 +79,12 @@ static inline void taylor_evaluate_change_and_rate(const IntegratorOf *run, Real
         even_slope = even + square * even_slope;
         odd_slope = odd + square * odd_slope;
         odd = *(const SeriesPart *)(run->series.terms[1] + i) + square * odd;
-        *(SeriesPart *)(all + i) = h * odd + square * even;
-        *(SeriesPart *)(slope + i) = odd + 2.0 * (h * even_slope + square * odd_slope);
+        *(SeriesPart *)(padded_change + i) = h * odd + square * even;
+        *(SeriesPart *)(padded_rate + i) = odd + 2.0 * (h * even_slope + square * odd_slope);
     }
     for (int i = 0; i < N_Y; i++) {
-        change[i] = all[i];
-        rate[i] = slope[i];
+        change[i] = padded_change[i];
+        rate[i] = padded_rate[i];
     }
 }
 

@@ -15,11 +15,11 @@ int compute_absolute_accelerations(double t, const double *absolute_state, const
 {
     double rate[N_S];
     RhsOutputs rhs;
-    DiscreteState now = *discrete;
-    now.is_frozen = 0; /* switching functions of all bodies have other indices */
-    now.min_pivot = NEARLY_SINGULAR;
-    now.min_pivot_size = VANISHING;
-    const int status = evaluate_rates_at(t, absolute_state, &now, p, rate, &rhs);
+    DiscreteState discrete_state = *discrete;
+    discrete_state.is_frozen = 0; /* switching functions of all bodies have other indices */
+    discrete_state.min_pivot = NEARLY_SINGULAR;
+    discrete_state.min_pivot_size = VANISHING;
+    const int status = evaluate_rates_at(t, absolute_state, &discrete_state, p, rate, &rhs);
     for (int k = 0; k < N_Q; k++)
         a[k] = rate[N_Q + k];
     *force = 0.0;
@@ -93,28 +93,28 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
     double m[N_Q];
     mass_matrix(p, m);
     for (long i = 0; i < n; i++, q += N_Q, v += N_Q, discrete += N_DISCRETE, relative_errors += 4) {
-        DiscreteState now = {0};
+        DiscreteState discrete_state = {0};
         RhsOutputs rhs;
         double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
         double reactions[3 * AT_LEAST_ONE(N_REACTIONS)], torques[AT_LEAST_ONE(N_DRIVES)];
         double series[AT_LEAST_ONE(N_SERIES)];
         double nu[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)];
-        double force[2] = {0.0, 0.0}, fast[2] = {0.0, 0.0}, far[2] = {0.0, 0.0};
+        double force[2] = {0.0, 0.0}, max_speed[2] = {0.0, 0.0}, max_coordinate[2] = {0.0, 0.0};
         relative_errors[0] = relative_errors[1] = relative_errors[2] = relative_errors[3] = 0.0;
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[k];
             y[N_Q + k] = v[k];
         }
-        read_discrete_state(discrete, &now);
-        if (has_drive_jump(t[i], q, v, p) || evaluate_rates_at(t[i], y, &now, p, dy, &rhs))
+        read_discrete_state(discrete, &discrete_state);
+        if (has_drive_jump(t[i], q, v, p) || evaluate_rates_at(t[i], y, &discrete_state, p, dy, &rhs))
             continue;
         for (int k = 0; k < N_Q; k++) {
             const int angle = k % 3 == 2;
             const double unit = angle ? 1.0 : size, a = dy[N_Q + k];
             rate = max_of(rate, max_of(fabs(v[k]) / unit, sqrt(fabs(a) / unit)));
             force[angle] += fabs(m[k] * a);
-            fast[angle] = max_of(fast[angle], fabs(v[k]));
-            far[angle] = max_of(far[angle], fabs(q[k]));
+            max_speed[angle] = max_of(max_speed[angle], fabs(v[k]));
+            max_coordinate[angle] = max_of(max_coordinate[angle], fabs(q[k]));
         }
         const double h = rate > 0.0 ? 1e-5 / rate : 0.0;
         for (int branch = 0; branch < 2; branch++) {
@@ -127,10 +127,10 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         compute_velocity_residuals(t[i], q, v, h, p, missed, nu);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
-        double terms = MIN_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
+        double terms = MIN_POWER + fabs(sum) + force[0] * max_speed[0] + force[1] * max_speed[1];
         terms += 4e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
         for (int i = 0; i < N_FRICTIONS; i++) /* in stick, all powers are rounding errors of friction */
-            terms += fabs(rhs.friction[i].force) * (fast[0] + fabs(rhs.friction[i].v));
+            terms += fabs(rhs.friction[i].force) * (max_speed[0] + fabs(rhs.friction[i].v));
         for (int k = 0; k < N_Q; k++)
             sum += v[k] * m[k] * dy[N_Q + k];
         for (int k = 0; k < N_WORK; k++) {
@@ -140,15 +140,17 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         double largest = fabs(rhs.power[0]);
         for (int d = 0; d < N_DRIVES; d++) {
             driven += torques[d] * nu[drive_row[d]];
-            largest += fabs(torques[d]) * (row_is_length[drive_row[d]] ? fast[0] : fast[1]);
+            largest += fabs(torques[d]) * (row_is_length[drive_row[d]] ? max_speed[0] : max_speed[1]);
         }
         largest = max_of(largest, terms);
         for (int r = 0; r < N_ROWS; r++) {
             const int row = motion_row[r], length = row_is_length[row];
-            const double unit = length ? size : 1.0, most = length ? far[0] + size * far[1] : far[1];
-            const double speed = max_of(length ? max_of(fast[0], size * fast[1]) : max_of(fast[1], fast[0] / size),
-                fabs(nu[row])) + 1e9 * DBL_EPSILON * most / between;
-            relative_errors[2] = max_of(relative_errors[2], fabs(phi[row]) / (unit + most));
+            const double unit = length ? size : 1.0;
+            const double max_size = length ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
+            const double max_body_speed = length ? max_of(max_speed[0], size * max_speed[1])
+                : max_of(max_speed[1], max_speed[0] / size);
+            const double speed = max_of(max_body_speed, fabs(nu[row])) + 1e9 * DBL_EPSILON * max_size / between;
+            relative_errors[2] = max_of(relative_errors[2], fabs(phi[row]) / (unit + max_size));
             if (speed > 0.0)
                 relative_errors[3] = max_of(relative_errors[3], fabs(missed[row]) / speed);
             const double lost = rhs.lambda[r] * missed[row]; /* power of the velocity error, as by rounding */
@@ -160,7 +162,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
     }
 }
 
-/* Return whether all n values are finite; NaN and infinities are not. */
+/* Return whether the sum of n values is finite. It is not if any value is NaN or infinite, nor if the sum overflows. */
 static int is_sum_finite(const double *values, long n)
 {
     double sum = 0.0;
@@ -173,13 +175,14 @@ static int is_sum_finite(const double *values, long n)
 #define START_RATES_TOL 1e-6 /* the same of velocities, of the largest one */
 
 /*
- * Return whether a start (q, v) has the set coordinates of the file, and the first sample y of a run differs from it by
- * rounding only. 0: not known, audit.py decides. size: of the mechanism, m.
+ * Return whether the initial state `start` (q, v) of a run has the set coordinates of the file, and the first sample y
+ * differs from it by rounding only: positions by START_TOL of the size, velocities by START_RATES_TOL of the largest
+ * rate in `start`. 0: not known, audit.py decides. size: of the mechanism, m.
  */
-static int begins_at_start(const double *y, const double *start, const Parameters *p, double size)
+static int starts_from_initial_state(const double *y, const double *start, const Parameters *p, double size)
 {
     double guess[AT_LEAST_ONE(N_GUESS)], set[AT_LEAST_ONE(N_SET + N_ECCENTRICITIES)],
-        rates[AT_LEAST_ONE(N_RATES + N_ECCENTRICITIES)], fastest = 0.0;
+        rates[AT_LEAST_ONE(N_RATES + N_ECCENTRICITIES)], largest_rate = 0.0;
     start_values(p, guess, set, rates);
     for (int i = 0; i < N_SET; i++) {
         const int k = set_coordinate[i], is_angle = k % 3 == 2;
@@ -189,11 +192,12 @@ static int begins_at_start(const double *y, const double *start, const Parameter
             return 0;
     }
     for (int k = N_Q; k < 2 * N_Q; k++)
-        fastest = max_of(fastest, fabs(start[k]));
+        largest_rate = max_of(largest_rate, fabs(start[k]));
     const double largest = max_of(size, 1.0);
-    const double far = START_TOL * size / largest, fast = START_RATES_TOL * min_of(size, 1.0) * fastest / largest;
+    const double position_tolerance = START_TOL * size / largest;
+    const double velocity_tolerance = START_RATES_TOL * min_of(size, 1.0) * largest_rate / largest;
     for (int k = 0; k < 2 * N_Q; k++)
-        if (!(fabs(y[k] - start[k]) <= (k < N_Q ? far : fast)))
+        if (!(fabs(y[k] - start[k]) <= (k < N_Q ? position_tolerance : velocity_tolerance)))
             return 0;
     return 1;
 }
@@ -240,7 +244,7 @@ int gudgeon_check_samples(long n, const double *t, const double *y, const double
         if (!is_sum_finite((const double *)&x, sizeof x / sizeof(double)) || !is_sum_finite(energy, N_ENERGY))
             return 0;
     }
-    if (limits && start && !begins_at_start(y, start, (const Parameters *)parameters, size))
+    if (limits && start && !starts_from_initial_state(y, start, (const Parameters *)parameters, size))
         return 0;
     for (long i = 0; limits && i < n_drawn; i++) {
         const double *state = y + drawn[i] * N_S;

@@ -63,7 +63,7 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
         discrete->contact[i].closed = !isnan(sample[i]);
         discrete->contact[i].deltadot_minus = sample[i];
 #if N_RIGID_WITH_FRICTION
-        discrete->contact[i].smooth = 0;
+        discrete->contact[i].is_frictionless = 0;
 #endif
     }
     for (int i = 0; i < N_FRICTIONS; i++)
@@ -145,10 +145,10 @@ void gudgeon_start_values(const double *p, double *guesses, double *set_coordina
  */
 int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
-    read_discrete_state(discrete, &now);
-    return evaluate_rates_at(t, y, &now, (const Parameters *)p, dy, &rhs);
+    read_discrete_state(discrete, &discrete_state);
+    return evaluate_rates_at(t, y, &discrete_state, (const Parameters *)p, dy, &rhs);
 }
 
 /*
@@ -205,15 +205,15 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 {
     const Parameters *p = (const Parameters *)parameters;
     for (long i = 0; i < n; i++) {
-        DiscreteState now = {0};
+        DiscreteState discrete_state = {0};
         RhsOutputs rhs;
         double y[N_S] = {0.0}, dy[N_S];
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[i * N_Q + k];
             y[N_Q + k] = v[i * N_Q + k];
         }
-        read_discrete_state(discrete + i * N_DISCRETE, &now);
-        const int status = evaluate_rates_at(t[i], y, &now, p, dy, &rhs);
+        read_discrete_state(discrete + i * N_DISCRETE, &discrete_state);
+        const int status = evaluate_rates_at(t[i], y, &discrete_state, p, dy, &rhs);
         if (status) {
             *failed_sample = i;
             return status;

@@ -95,10 +95,10 @@ static int are_residuals_rounding(const StartWorkspace *workspace, double residu
 
 /*
  * Return whether Newton's steps converge to a configuration that is no nearer to the guess than the nearest known one,
- * workspace->nearest. fraction_left: the fraction of the residuals that the last step left; the following steps are
- * smaller by as much. Return 0 if it is 0.1 or more: slow convergence is inconclusive.
+ * workspace->nearest. remaining_fraction: the fraction of the residuals that the last step left; the following steps
+ * are smaller by as much. Return 0 if it is 0.1 or more: slow convergence is inconclusive.
  */
-static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double *q, double fraction_left)
+static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double *q, double remaining_fraction)
 {
     double step_squared = 0.0, distance_squared = 0.0;
     for (int k = 0; k < N_Q; k++) {
@@ -108,8 +108,8 @@ static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double 
         step_squared += workspace->step[k] * workspace->step[k];
         distance_squared += scaled * scaled;
     }
-    return fraction_left < 0.1
-        && sqrt(distance_squared) - 4.0 * fraction_left * sqrt(step_squared) > sqrt(workspace->nearest);
+    return remaining_fraction < 0.1
+        && sqrt(distance_squared) - 4.0 * remaining_fraction * sqrt(step_squared) > sqrt(workspace->nearest);
 }
 
 /*

@@ -76,24 +76,24 @@ static double choose_unit_force(const Delassus *contacts, const Parameters *p)
 static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, Delassus *contacts)
 {
-    double rates_base[MAX_RATES], rates_pushed[MAX_RATES];
+    double rates_without_force[MAX_RATES], rates_with_force[MAX_RATES];
     RhsOutputs rhs;
     for (int k = 0; k < contacts->n; k++)
         discrete->contact[contacts->joint[k]].force = 0.0;
-    int status = evaluate_rates(t, y, discrete, p, rates_base, &rhs);
+    int status = evaluate_rates(t, y, discrete, p, rates_without_force, &rhs);
     for (int k = 0; k < contacts->n; k++)
         contacts->r[k] = compute_penetration_acceleration(&rhs.clearance[contacts->joint[k]]);
     const double unit_force = choose_unit_force(contacts, p);
     for (int column = 0; column < contacts->n && !status; column++) {
         ContactState *contact = &discrete->contact[contacts->joint[column]];
         contact->force = unit_force;
-        status = evaluate_rates(t, y, discrete, p, rates_pushed, &rhs);
+        status = evaluate_rates(t, y, discrete, p, rates_with_force, &rhs);
         contact->force = 0.0;
         for (int k = 0; k < contacts->n; k++)
             contacts->D[k][column] = (contacts->r[k]
                 - compute_penetration_acceleration(&rhs.clearance[contacts->joint[k]])) / unit_force;
         for (int k = 0; k < n_rates; k++)
-            contacts->response[column][k] = (rates_pushed[k] - rates_base[k]) / unit_force;
+            contacts->response[column][k] = (rates_with_force[k] - rates_without_force[k]) / unit_force;
     }
     return status;
 }

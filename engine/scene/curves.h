@@ -105,7 +105,8 @@ static inline double evaluate_knot_switch(const Curve *curve_table, double x)
 
 #ifdef GUDGEON_LANES_H
 /*
- * Return evaluate_curve() in each lane: a curve or its derivative of an order at the vector x, on a vector of branches.
+ * Return a curve, or its derivative of an order (0, 1, ...), at x in each lane, as evaluate_curve(). branch: the frozen
+ * branch of the piece, 0: not frozen.
  */
 static inline Lanes evaluate_curve_in_lanes(const Curve *curve_table, int order, Lanes x, Lanes branch)
 {
@@ -116,8 +117,8 @@ static inline Lanes evaluate_curve_in_lanes(const Curve *curve_table, int order,
 }
 
 /*
- * Return evaluate_knot_switch() in each lane at the vector x: 0 at a knot between two pieces, and with a sign that
- * alternates from piece to piece.
+ * Return the switching function of the knots of a curve at x in each lane, as evaluate_knot_switch(): 0 at a knot
+ * between two pieces, with a sign that alternates from piece to piece.
  */
 static inline Lanes evaluate_knot_switch_in_lanes(const Curve *curve_table, Lanes x)
 {

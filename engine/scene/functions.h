@@ -32,17 +32,17 @@ static inline double from_bits(uint64_t bits)
     return x;
 }
 
-#define PARTS_REAL double
-#define PARTS_BITS uint64_t
-#define PARTS_FUNCTION(name) name
-#define PARTS_POWER(bits) ((double)((int64_t)(bits) >> 52))
-#define PARTS_ENTRY(table, bits, k) table[(bits) & 127][k]
-#include "parts.h"
-#undef PARTS_REAL
-#undef PARTS_BITS
-#undef PARTS_FUNCTION
-#undef PARTS_POWER
-#undef PARTS_ENTRY
+#define NUMBER_TYPE double
+#define NUMBER_BITS uint64_t
+#define TYPED_NAME(name) name
+#define EXPONENT_OF(bits) ((double)((int64_t)(bits) >> 52))
+#define TABLE_ENTRY(table, bits, k) table[(bits) & 127][k]
+#include "elementary_functions.h"
+#undef NUMBER_TYPE
+#undef NUMBER_BITS
+#undef TYPED_NAME
+#undef EXPONENT_OF
+#undef TABLE_ENTRY
 
 /*
  * Return sin x, x in rad, with the same bits on every platform up to TURN_LIMIT; larger angles, infinity and NaN use

@@ -159,10 +159,10 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
 #if N_TERMS || KNOWN_BOUNDS
 #include "../watch/ranges.h"
 
-/* Watched functions of a step; their bounds, and those of terms of time, over ranges of time and state. */
-void watched_functions(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+/* Monitored functions of a step; their bounds, and those of terms of time, over ranges of time and state. */
+void monitored_functions(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     RhsOutputs *rhs);
-void bound_watched_functions(
+void bound_monitored_functions(
     Interval t, const Interval *q, const Interval *v, const DiscreteState *discrete, const Parameters *p,
     Interval *out);
 void time_terms(Interval t, const Parameters *p, Interval *out);

@@ -88,7 +88,7 @@ static inline double mod_of(double a, double b)
  * Return mod(a, b) on a frozen branch: that of the even (branch 1) or odd (-1) periods, continued half a period beyond
  * both ends. branch 0: mod(a, b).
  */
-static inline double mod_on(double a, double b, double branch)
+static inline double mod_on_branch(double a, double b, double branch)
 {
     const double remainder = mod_of(a, 2.0 * b), n_periods = remainder / b;
     if (branch == 0.0)

@@ -6,9 +6,9 @@
 #ifndef GUDGEON_POWERS_H
 #define GUDGEON_POWERS_H
 
-enum { POWER_PARTS = 128 };
+enum { POWER_TABLE_ROWS = 128 };
 
-static const double log_table[POWER_PARTS][3] = {
+static const double log_table[POWER_TABLE_ROWS][3] = {
     {0x1.724p0, -0x1.79db6681bp-2, 0x1.4d319161a11f8p-44},
     {0x1.703p0, -0x1.74230768ap-2, 0x1.05ca6ea7f7eaep-44},
     {0x1.6e2p0, -0x1.6e626e6aaap-2, 0x1.a3326a23b743dp-44},
@@ -139,7 +139,7 @@ static const double log_table[POWER_PARTS][3] = {
     {0x1.746p-1, 0x1.4610bc29c6p-2, -0x1.e82c9f310c8e6p-46},
 };
 
-static const double exp_table[POWER_PARTS][2] = {
+static const double exp_table[POWER_TABLE_ROWS][2] = {
     {0x1.0p0, 0.0}, {0x1.0163da9fb3335p0, 0x1.b3b4f1a88bf6dp-54},
     {0x1.02c9a3e778061p0, -0x1.160139cd8dc5dp-56}, {0x1.04315e86e7f85p0, -0x1.05e7a108766d1p-54},
     {0x1.059b0d3158574p0, 0x1.cd2523567f613p-55}, {0x1.0706b29ddf6dep0, -0x1.bce8023f98efap-55},

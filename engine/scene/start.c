@@ -93,10 +93,10 @@ static double compute_change_from_guess(const StartWorkspace *workspace, const d
 }
 
 /*
- * Return whether all positions in q are below 1000 times the search radius, workspace->radius (m): the iteration has
- * not diverged.
+ * Return whether the coordinates x and y of all bodies in q are below 1000 times the search radius, workspace->radius
+ * (m): the iteration has not diverged. Angles are not tested.
  */
-static int are_positions_bounded(const StartWorkspace *workspace, const double *q)
+static int are_translations_bounded(const StartWorkspace *workspace, const double *q)
 {
     int are_bounded = 1;
     for (int k = 0; k < N_Q; k++)
@@ -145,7 +145,7 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
             workspace->trial[set_coordinate[i]] = workspace->set[i];
         if (solve_independent_angles(workspace, t, p, workspace->trial)
             || solve_closure(workspace, t, p, workspace->trial)
-            || !are_positions_bounded(workspace, workspace->trial)
+            || !are_translations_bounded(workspace, workspace->trial)
             || remove_full_turns(workspace, t, p, workspace->trial)
                 || !(compute_squared_distance_from_guess(workspace, workspace->trial) < workspace->nearest))
             continue;
@@ -238,7 +238,7 @@ int compute_start(
     if (!status && compute_change_from_guess(workspace, q) < 1.0)
         select_nearest_start(workspace, t, p, q);
     status = status || !(compute_change_from_guess(workspace, q) < 1.0)
-        || !are_positions_bounded(workspace, q); /* another branch may be nearer */
+        || !are_translations_bounded(workspace, q); /* another branch may be nearer */
     status = status || compute_start_velocities(workspace, t, p, q, v);
     compute_start_residuals(workspace, t, q, p);
     *residual = 0.0;

@@ -73,8 +73,8 @@ typedef struct {
     double force; /* N, of rigid surfaces: the force that keeps a closed contact closed (contact_forces.h) */
 #endif
 #if N_RIGID_WITH_FRICTION
-    int smooth;   /* no friction but `along`: for impacts and the projection of contacts */
-    double along; /* N, along t on the second body */
+    int is_frictionless;     /* no friction but tangential_force: for impacts and the projection of contacts */
+    double tangential_force; /* N, along t on the second body */
 #endif
 } ContactState;
 

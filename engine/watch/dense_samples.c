@@ -2,10 +2,10 @@
  * Search for switching points and user events in a step by sampling, for functions without interval bounds. They depend
  * on forces or on driven loops. Stages of a long step may miss an oscillation. Where a function may have a zero, it is
  * sampled on the dense output; a step that does not resolve it is repeated shorter. Scenes with bounds use watched.c.
- * Watched functions are the N_WATCHED event functions that are searched: switching functions and user events;
- * watched[i] is the number of function i among all event functions.
+ * Monitored functions are the N_MONITORED event functions that are searched: switching functions and user events;
+ * monitored_event[i] is the number of function i among all event functions.
  */
-#if N_WATCHED
+#if N_MONITORED
 /* Evaluate the outputs rhs of the right-hand side at a state y and time t (s); rates and status are discarded. */
 static void evaluate_rhs_outputs(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
@@ -32,9 +32,9 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
 }
 
 /*
- * Estimate by how much each watched function changes if all coordinates and velocities at the beginning of a step are
- * raised by one error tolerance at once: uncertainty (N_WATCHED), by one evaluation. Smaller values cannot be resolved.
- * Called by is_step_unresolved() for the allowed error of samples.
+ * Estimate by how much each monitored function changes if all coordinates and velocities at the beginning of a step are
+ * raised by one error tolerance at once: uncertainty (N_MONITORED), by one evaluation. Smaller values cannot be
+ * resolved. Called by is_step_unresolved() for the allowed error of samples.
  */
 static void estimate_tolerance_uncertainty(Integrator *run, const Step *step, const Parameters *p,
     double *uncertainty)
@@ -44,10 +44,10 @@ static void estimate_tolerance_uncertainty(Integrator *run, const Step *step, co
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->norm.weight[k] : 0.0);
     evaluate_rhs_outputs(run, step->t, y, p, &rhs);
-    for (int i = 0; i < N_WATCHED; i++)
+    for (int i = 0; i < N_MONITORED; i++)
         uncertainty[i] = fabs(
-            compute_event_value(&run->discrete, &rhs, watched[i])
-                - compute_event_value(&run->discrete, &run->rhs, watched[i]));
+            compute_event_value(&run->discrete, &rhs, monitored_event[i])
+                - compute_event_value(&run->discrete, &run->rhs, monitored_event[i]));
 }
 
 /*
@@ -99,7 +99,7 @@ static double compute_resolution_error(const double *samples, double sufficient_
 }
 
 /*
- * Return whether samples of the dense output do not resolve a watched function that may have a zero, so that the step
+ * Return whether samples of the dense output do not resolve a monitored function that may have a zero, so that the step
  * is too long. It is unresolved if cubics between the samples err by more than 0.05 of their range, or if the stages of
  * an explicit step have more than twice that range (aliasing). Stores the samples in step->sample, and in
  * step->may_be_zero which functions may have a zero. Return 0 without such a function, without dense output, or if
@@ -108,10 +108,10 @@ static double compute_resolution_error(const double *samples, double sufficient_
  */
 static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
-    double range[N_WATCHED], uncertainties[N_WATCHED];
+    double range[N_MONITORED], uncertainties[N_MONITORED];
     step->has_zero_bracket = 0;
-    for (int i = 0; i < N_WATCHED; i++) {
-        step->may_be_zero[i] = (unsigned char)may_have_zero(run, step, watched[i], &range[i]);
+    for (int i = 0; i < N_MONITORED; i++) {
+        step->may_be_zero[i] = (unsigned char)may_have_zero(run, step, monitored_event[i], &range[i]);
         step->has_zero_bracket |= step->may_be_zero[i];
     }
     if (!step->has_zero_bracket || compute_dense_output(run, p, step))
@@ -123,13 +123,13 @@ static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
             interpolate(run, step, (double)sample / N_SAMPLES, y);
             evaluate_rhs_outputs(run, step->t + (double)sample / N_SAMPLES * step->h, y, p, &rhs);
         }
-        for (int i = 0; i < N_WATCHED; i++)
-            step->sample[i][sample] = compute_event_value(&run->discrete, &rhs, watched[i]);
+        for (int i = 0; i < N_MONITORED; i++)
+            step->sample[i][sample] = compute_event_value(&run->discrete, &rhs, monitored_event[i]);
     }
     if (N_SAMPLES * compute_event_time_tolerance(run, step) >= 1.0)
         return 0; /* the samples are as near as times can be (a pole, many jumps) */
     estimate_tolerance_uncertainty(run, step, p, uncertainties);
-    for (int i = 0; i < N_WATCHED; i++) {
+    for (int i = 0; i < N_MONITORED; i++) {
         double smallest = INFINITY, largest = -INFINITY;
         for (int sample = 0; sample <= N_SAMPLES; sample++) {
             smallest = min_of(smallest, step->sample[i][sample]);
@@ -176,9 +176,9 @@ static double refine_minimum(
 }
 
 /*
- * Return the first fraction of the step at which a watched function (switching function or user event) is negative, and
- * its value there in *value; 0: none, *value is then undefined. index: of the watched function; functions without a
- * possible zero (step->may_be_zero) are not searched. Samples are tested in order; between them, the minimum of a
+ * Return the first fraction of the step at which a monitored function (switching function or user event) is negative,
+ * and its value there in *value; 0: none, *value is then undefined. index: of the monitored function; functions without
+ * a possible zero (step->may_be_zero) are not searched. Samples are tested in order; between them, the minimum of a
  * parabola that comes near zero is refined (refine_minimum()).
  */
 static double find_first_negative_sample(Integrator *run, const Step *step, int index, const Parameters *p,
@@ -192,8 +192,8 @@ static double find_first_negative_sample(Integrator *run, const Step *step, int 
                 minimum = f[j - 1] - 0.5 * second_difference * offset * offset;
             double fraction = (j - 1 + offset) / N_SAMPLES;
             if (minimum < 0.1 * f[j - 1]) {
-                *value = evaluate_event_function_at(run, step, fraction, watched[index], p);
-                *value = refine_minimum(run, step, watched[index], &fraction, 0.5 / N_SAMPLES, *value, p);
+                *value = evaluate_event_function_at(run, step, fraction, monitored_event[index], p);
+                *value = refine_minimum(run, step, monitored_event[index], &fraction, 0.5 / N_SAMPLES, *value, p);
                 if (*value < 0.0)
                     return fraction;
             }
@@ -207,32 +207,32 @@ static double find_first_negative_sample(Integrator *run, const Step *step, int 
 }
 
 /*
- * Set the brackets of all watched event functions to none (step->bracket_begin = 0). Nothing is evaluated here: without
- * interval bounds, find_first_negative_sample() searches the samples instead. Called by find_first_event(). With
- * interval bounds, watched.c defines this function and finds the brackets.
+ * Set the brackets of all monitored event functions to none (step->bracket_begin = 0). Nothing is evaluated here:
+ * without interval bounds, find_first_negative_sample() searches the samples instead. Called by find_first_event().
+ * With interval bounds, watched.c defines this function and finds the brackets.
  */
 static void bracket_first_zeros(const Integrator *run, Step *step, const Parameters *p)
 {
     (void)run, (void)p;
-    for (int i = 0; i < N_WATCHED; i++)
+    for (int i = 0; i < N_MONITORED; i++)
         step->bracket_begin[i] = 0.0;
 }
 
 #else
-/* Return 0, the step is resolved: the scene has no watched functions. */
+/* Return 0, the step is resolved: the scene has no monitored functions. */
 static inline int is_step_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;
 }
 
-/* Do nothing: the scene has no watched functions. */
+/* Do nothing: the scene has no monitored functions. */
 static inline void bracket_first_zeros(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
 }
 
-/* Return 0, no sample is negative, and set *value to 0: the scene has no watched functions. */
+/* Return 0, no sample is negative, and set *value to 0: the scene has no monitored functions. */
 static inline double find_first_negative_sample(
     const Integrator *run, const Step *step, int index, const Parameters *p, double *value)
 {

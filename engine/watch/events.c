@@ -1,7 +1,7 @@
 /*
  * Events that end a step: the first zero of any event function (contacts, switching points, friction that sticks). An
  * event is a negative value, not only a change of sign, so that a contact that restarts with penetration is registered.
- * Watched functions are the switching functions and user events that watched.c or dense_samples.c searches.
+ * Monitored functions are the switching functions and user events that watched.c or dense_samples.c searches.
  */
 
 #define LONG_STEP_RATIO 7.0 /* to the last step: step-size control alone lets a step grow by less */
@@ -50,11 +50,11 @@ static int ignore_negligible_switches(Integrator *run, Step *step, const Paramet
         return 0;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        const int gap_function = N_CLEARANCES + k;
-        const int is_of_law = is_continuous_switch[k] && watched_index[gap_function] < 0 && run->control.fixed <= 0.0;
+        const int event = N_CLEARANCES + k;
+        const int is_of_law = is_continuous_switch[k] && monitored_index[event] < 0 && run->control.fixed <= 0.0;
         /* of laws only with step-size control: fixed steps have no tolerance to compare with */
         const int may_ignore = is_of_law || k == run->roots.suppressed_switch;
-        step->is_ignored[k] = may_ignore && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
+        step->is_ignored[k] = may_ignore && compute_event_value(&run->discrete, &step->rhs, event) < 0.0;
         has_ignored |= step->is_ignored[k];
     }
     if (!has_ignored)
@@ -129,8 +129,8 @@ static double find_first_negative_stage(const Step *step, int event, double end_
  */
 static double find_negative_end_of_bracket(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
-    if (watched_index[event] >= 0)
-        return find_first_negative_sample(run, step, watched_index[event], p, value);
+    if (monitored_index[event] >= 0)
+        return find_first_negative_sample(run, step, monitored_index[event], p, value);
     const double end_value = compute_event_value(&run->discrete, &step->rhs, event);
     for (int pass = 0; pass < 2 && step->min_event_value[event] < 0.0; pass++) {
         const double fraction = pass ? find_stage_of_minimum(step, event)
@@ -147,17 +147,17 @@ static double find_negative_end_of_bracket(Integrator *run, Step *step, int even
 
 /*
  * Return whether the magnitude of an event function is larger than its uncertainty at state y and time t (s). event:
- * number of the function; rhs: outputs of the right-hand side at y. Only watched event functions (switching points and
- * user events) have an uncertainty: return 1 for all others, and for NaN. Also used by the audit.
+ * number of the function; rhs: outputs of the right-hand side at y. Only monitored event functions (switching points
+ * and user events) have an uncertainty: return 1 for all others, and for NaN. Also used by the audit.
  */
 static int is_above_uncertainty(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int event,
     const Parameters *p)
 {
-    double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
-    if (watched_index[event] < 0)
+    double error[AT_LEAST_ONE(N_MONITORED)] = {0.0};
+    if (monitored_index[event] < 0)
         return 1;
     estimate_rounding_uncertainty(run, t, y, p, error);
-    return !(fabs(compute_event_value(&run->discrete, rhs, event)) <= error[watched_index[event]]);
+    return !(fabs(compute_event_value(&run->discrete, rhs, event)) <= error[monitored_index[event]]);
 }
 
 /*
@@ -169,7 +169,7 @@ static int is_event_value_significant_at(
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    return watched_index[event] < 0 || evaluate_state_at(run, step, fraction, p, y, dy, &rhs)
+    return monitored_index[event] < 0 || evaluate_state_at(run, step, fraction, p, y, dy, &rhs)
         || is_above_uncertainty(run, step->t + fraction * step->h, y, &rhs, event, p);
 }
 
@@ -187,14 +187,14 @@ static double find_earlier_event(Integrator *run, const Step *step, double first
         int earlier = -1;
         for (int k = 0; k < N_EVENT_FUNCTIONS && sample >= 0; k++)
             if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_event_ignored(run, step, k)
-                && !isfinite(get_bracket_begin(run, step, k).slope)
+                && !isfinite(sample_at_step_begin(run, step, k).slope)
                     && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0
                 && is_event_value_significant_at(run, step, first_fraction, k, p))
                 earlier = k;
         if (earlier < 0)
             return first_fraction;
-        const Sample high = evaluate_bracket_point(run, step, first_fraction, earlier, p);
-        const Bracket bracket = build_stage_bracket(step, earlier, get_bracket_begin(run, step, earlier), high);
+        const Sample high = sample_event_function(run, step, first_fraction, earlier, p);
+        const Bracket bracket = build_stage_bracket(step, earlier, sample_at_step_begin(run, step, earlier), high);
         const double s = locate_event_in_step(run, step, earlier, bracket,
             estimate_zero(&bracket, count_interpolation_points(run, earlier)), p);
         if (!(s < first_fraction))
@@ -214,7 +214,7 @@ typedef struct {
 
 /*
  * Return whether an event function is negative somewhere in the step, and set *candidate to its bracket and the
- * estimates of its zero. Zeros of a gap after max_fraction may be omitted. The bracket of a watched function begins
+ * estimates of its zero. Zeros of a gap after max_fraction may be omitted. The bracket of a monitored function begins
  * where bracket_first_zeros() found it. A function that is negative at the beginning is evaluated at three inner points
  * for a return above zero; without one the event is at the beginning. Return 0 without dense output. Called for each
  * event function that may have a zero in the step.
@@ -223,28 +223,28 @@ static int find_event_candidate(Integrator *run, Step *step, int event, const Pa
     Candidate *candidate)
 {
     double value_high;
-    Sample low = get_bracket_begin(run, step, event), end = {0.0, NAN, NAN};
-    const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, event);
+    Sample low = sample_at_step_begin(run, step, event), end = {0.0, NAN, NAN};
+    const int is_gap = isfinite(low.slope), sampled = is_gap || is_force_or_slip_function(run, event);
     const int candidates = is_gap ? bracket_gap_zero(run, step, event, p, max_fraction, &low, &end)
         : sampled ? bracket_force_zero(run, step, event, p, &low, &end) : 0;
     const double high = sampled ? candidates * end.s : find_negative_end_of_bracket(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
-    if (watched_index[event] >= 0 && step->bracket_begin[watched_index[event]] > 0.0) {
-        const Sample from = evaluate_bracket_point(run, step, step->bracket_begin[watched_index[event]], event, p);
-        if (from.f >= 0.0 || step->value_at_begin[watched_index[event]] >= 0.0)
+    if (monitored_index[event] >= 0 && step->bracket_begin[monitored_index[event]] > 0.0) {
+        const Sample from = sample_event_function(run, step, step->bracket_begin[monitored_index[event]], event, p);
+        if (from.f >= 0.0 || step->value_at_begin[monitored_index[event]] >= 0.0)
             low = from;
     }
-    if (watched_index[event] >= 0 && step->value_at_begin[watched_index[event]] >= 0.0) /* within its uncertainty */
+    if (monitored_index[event] >= 0 && step->value_at_begin[monitored_index[event]] >= 0.0) /* within its uncertainty */
         low.f = max_of(low.f, 0.0);
     for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* negative at the beginning: find a return */
-        const Sample inner = evaluate_bracket_point(run, step, 0.25 * j * high, event, p);
+        const Sample inner = sample_event_function(run, step, 0.25 * j * high, event, p);
         if (inner.f >= 0.0)
             low = inner;
     }
     candidate->k = event;
     if (!is_gap)
-        end = high < 1.0 ? evaluate_bracket_point(run, step, high, event, p) : get_bracket_end(run, step, event);
+        end = high < 1.0 ? sample_event_function(run, step, high, event, p) : sample_at_step_end(run, step, event);
     candidate->bracket = build_stage_bracket(step, event, low, end);
     candidate->guess = low.f >= 0.0 ? estimate_zero(&candidate->bracket, count_interpolation_points(run, event))
         : low.s;
@@ -269,9 +269,9 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
     evaluate_event_functions(&run->discrete, &step->rhs, at_end);
     for (int k = N_CLEARANCES; k < N_EVENT_FUNCTIONS; k++)
         has_negative |= (step->min_event_value[k] < 0.0) | (at_end[k] < 0.0);
-    const int only_gaps = !N_WATCHED && !N_FRICTIONS && !has_negative; /* all others are positive */
+    const int only_gaps = !N_MONITORED && !N_FRICTIONS && !has_negative; /* all others are positive */
     for (int k = 0; k < (only_gaps ? N_CLEARANCES : N_EVENT_FUNCTIONS); k++) {
-        const int is_positive = k >= N_CLEARANCES && watched_index[k] < 0 && !is_contact_force_function(run, k)
+        const int is_positive = k >= N_CLEARANCES && monitored_index[k] < 0 && !is_force_or_slip_function(run, k)
             && !(step->min_event_value[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate candidate;
         int i = n;
@@ -305,7 +305,7 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
  * Return the fraction of the first event of a long step, and update *event. The step up to the event found at
  * `fraction` is long if it exceeds LONG_STEP_RATIO times the last one, while a contact is closed. Then N_INNER_SAMPLES
  * - 1 inner points are tested for earlier events. That needs a switching function that no other search covers: not
- * watched, not ignored, positive at the beginning and, with a non-stiff method, not bounded away from zero by its
+ * monitored, not ignored, positive at the beginning and, with a non-stiff method, not bounded away from zero by its
  * stages. All other steps, and steps of fixed length, return `fraction`.
  */
 static double find_first_event_of_long_step(Integrator *run, Step *step, double fraction, const Parameters *p,
@@ -317,8 +317,8 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
     if (!has_contact || !(fraction * step->h > LONG_STEP_RATIO * run->control.last_step) || run->control.fixed > 0.0)
         return fraction;
     for (int k = 0; k < N_EVENT_FUNCTIONS && !is_unbounded_function; k++)
-        is_unbounded_function = watched_index[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
-            && !is_contact_force_function(run, k)
+        is_unbounded_function = monitored_index[k] < 0 && !isfinite(sample_at_step_begin(run, step, k).slope)
+            && !is_force_or_slip_function(run, k)
             && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0 && !is_event_ignored(run, step, k)
             && (step->method->stiff || !is_bounded_away_from_zero(run, step, k, 0.0, p));
     if (!is_unbounded_function || compute_dense_output(run, p, step))
@@ -411,14 +411,14 @@ static double find_first_event(Integrator *run, Step *step, const Parameters *p,
 static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.suppressed_switch = -1; }
 
 /*
- * Set the resolution of event times, roots.time_resolution: min(1e-12 s, 1e-11 time_left), where time_left is the time
- * to the end of the run, s. With steps of fixed length h it is min(1e-12 s, 1e-8 h), so that a resumed run repeats the
- * uninterrupted one. Called when a run begins or resumes.
+ * Set the resolution of event times, roots.time_resolution: min(1e-12 s, 1e-11 remaining_time), where remaining_time is
+ * the time to the end of the run, s. With steps of fixed length h it is min(1e-12 s, 1e-8 h), so that a resumed run
+ * repeats the uninterrupted one. Called when a run begins or resumes.
  */
-static void set_time_resolution(Integrator *run, double time_left)
+static void set_time_resolution(Integrator *run, double remaining_time)
 {
     run->roots.time_resolution = min_of(1e-12, run->control.fixed > 0.0 ? 1e-8 * run->control.fixed
-        : 1e-11 * time_left);
+        : 1e-11 * remaining_time);
 }
 
 #define MIN_RATE_JUMP_TOL 1e-3 /* of a tolerance: smaller changes of a step by a switching point are ignored */

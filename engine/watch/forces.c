@@ -21,15 +21,15 @@ typedef struct {
 } SampledPart;
 
 /*
- * Return whether the zeros of an event function are searched by this file: that of a closed rigid contact, or of a
- * friction element that no other friction holds.
+ * Return whether the zeros of an event function are searched by this file: the force of a closed rigid contact, or the
+ * force margin or slip of a friction element whose mode is not MODE_CONSTRAINED.
  */
-static int is_contact_force_function(const Integrator *run, int event)
+static int is_force_or_slip_function(const Integrator *run, int event)
 {
     const int friction = event - N_CLEARANCES - N_SWITCHES;
     if (event < N_CLEARANCES)
         return !is_compliant(event) && run->discrete.contact[event].closed;
-    return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != MODE_HELD;
+    return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != MODE_CONSTRAINED;
 }
 
 #if N_FRICTIONS
@@ -171,7 +171,7 @@ static int is_bounded_away_from_zero(const Integrator *run, Step *step, int even
 {
     Sample samples[N_STAGES + 2];
     const int n =
-        collect_stage_samples(step, get_bracket_begin(run, step, event), get_bracket_end(run, step, event),
+        collect_stage_samples(step, sample_at_step_begin(run, step, event), sample_at_step_end(run, step, event),
             get_stage_values(step, event), samples);
     const int friction = event - N_CLEARANCES - N_SWITCHES;
     double smallest = INFINITY, largest = -INFINITY;
@@ -242,11 +242,11 @@ static int bracket_force_zero(Integrator *run, Step *step, int event, const Para
     const double min_width = 4.0 * compute_event_time_tolerance(run, step);
     double allowance = compute_initial_allowance(run, event, p);
     SampledPart parts[MAX_BISECTIONS + 1];
-    Sample from = get_bracket_begin(run, step, event);
+    Sample from = sample_at_step_begin(run, step, event);
     double largest = fabs(from.f);
     if (is_bounded_away_from_zero(run, step, event, allowance, p) || compute_dense_output(run, p, step))
         return 0;
-    parts[0] = (SampledPart){evaluate_bracket_point(run, step, 0.5, event, p), get_bracket_end(run, step, event),
+    parts[0] = (SampledPart){sample_event_function(run, step, 0.5, event, p), sample_at_step_end(run, step, event),
         INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart current = parts[n - 1];
@@ -269,14 +269,14 @@ static int bracket_force_zero(Integrator *run, Step *step, int event, const Para
             n--;
             continue;
         }
-        const Sample left = evaluate_bracket_point(run, step, from.s + 0.25 * width, event, p);
-        const Sample right = evaluate_bracket_point(run, step, current.end.s - 0.25 * width, event, p);
+        const Sample left = sample_event_function(run, step, from.s + 0.25 * width, event, p);
+        const Sample right = sample_event_function(run, step, current.end.s - 0.25 * width, event, p);
         const double error = estimate_error_of_halves(from, current, left, right);
         parts[n - 1] = (SampledPart){right, current.end, error};
         parts[n++] = (SampledPart){left, current.middle, error};
         samples += 2;
     }
-    *low = get_bracket_begin(run, step, event);
+    *low = sample_at_step_begin(run, step, event);
     *high = from; /* a velocity within its tolerance has reversed */
     return allowance > 0.0 && from.f < -MAX_STICK_SPEED;
 }

@@ -200,10 +200,10 @@ static int find_first_gap_zero(
 {
     const double bound = compute_gap_event_threshold(p, joint),
         min_width = 4.0 * compute_event_time_tolerance(run, step);
-    PartOfStep parts[MAX_BISECTIONS + 1] = {{get_bracket_end(run, step, joint), INFINITY}};
-    Sample begin = get_bracket_begin(run, step, joint);
+    PartOfStep parts[MAX_BISECTIONS + 1] = {{sample_at_step_end(run, step, joint), INFINITY}};
+    Sample begin = sample_at_step_begin(run, step, joint);
     const Sample sample = min_of(first_negative, max_fraction) <= 0.5
-        ? evaluate_gap_point(run, step, min_of(first_negative, max_fraction), joint, p)
+        ? sample_gap_function(run, step, min_of(first_negative, max_fraction), joint, p)
         : (Sample){0.0, NAN, NAN};
     int n_parts = 1;
     if (isfinite(sample.f))
@@ -214,7 +214,7 @@ static int find_first_gap_zero(
         int result = begin.f >= bound ? classify_gap_by_cubic(begin, part.end, part.error, bound) : ONE_ZERO;
         if (result == UNKNOWN) {
             const Sample middle = width > min_width && n_parts <= MAX_BISECTIONS && n_samples++ < MAX_SAMPLES
-                ? evaluate_gap_point(run, step, begin.s + 0.5 * width, joint, p) : (Sample){0.0, NAN, NAN};
+                ? sample_gap_function(run, step, begin.s + 0.5 * width, joint, p) : (Sample){0.0, NAN, NAN};
             if (isfinite(middle.f)) {
                 const double error = width > 0.5 ? INFINITY : compute_cubic_error(begin, middle, part.end);
                 parts[n_parts - 1].error = error;
@@ -247,8 +247,8 @@ static int bracket_gap_zero(Integrator *run, Step *step, int joint, const Parame
     double first_negative = 1.0;
     int result = is_gap_far_from_zero(run, step, joint, p) ? NO_ZERO
         : classify_gap_by_stages(run, step, joint, p, &first_negative);
-    *low = get_bracket_begin(run, step, joint);
-    *high = get_bracket_end(run, step, joint);
+    *low = sample_at_step_begin(run, step, joint);
+    *high = sample_at_step_end(run, step, joint);
     if (result == UNKNOWN)
         result = compute_dense_output(run, p, step) ? high->f < 0.0 ? ONE_ZERO : NO_ZERO
             : find_first_gap_zero(run, step, joint, p, max_fraction, first_negative, low, high);

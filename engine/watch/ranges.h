@@ -280,14 +280,14 @@ static inline int contains_sequence_point(double lower, double upper, double fir
 }
 
 /*
- * Return the derivative by x of mod_switching_function(x, 1), the switching function of mod(x, 1). It has the
- * period 2: 4 at even integers x, -4 at odd ones, and linear between. Called for the bounds of
- * slopes.
+ * Return the derivative by x of mod_switching_function(x, 1), the switching function of mod(x, 1). It has the period 2:
+ * 4 at even integers x, -4 at odd ones, and linear between, with a jump of its slope at integers. Used for the bounds
+ * of slopes.
  */
 static inline double compute_mod_switching_slope(double x)
 {
-    const double rest = mod_of(x, 2.0);
-    return rest < 1.0 ? 4.0 - 8.0 * rest : 8.0 * rest - 12.0;
+    const double remainder = mod_of(x, 2.0);
+    return remainder < 1.0 ? 4.0 - 8.0 * remainder : 8.0 * remainder - 12.0;
 }
 
 /*

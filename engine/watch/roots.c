@@ -56,9 +56,10 @@ static int evaluate_contacts_at(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Evaluate the contacts of joints with play at a fraction of the step into rhs. The stored sample after the last
- * located zero is copied if it is at that fraction. Scenes with friction elements evaluate the whole right-hand side.
- * Return a status.
+ * Evaluate the contacts of joints with play at a fraction of the step into rhs, at the interpolated and projected state
+ * (project_state()). The stored sample after the last located zero is copied if it is at that fraction. Scenes with
+ * friction elements evaluate the whole right-hand side. Return a status. Used in the searches for zeros and for peaks
+ * (run peaks.c).
  */
 static int evaluate_contacts_in_step(Integrator *run, const Step *step, double fraction, const Parameters *p,
     RhsOutputs *rhs)
@@ -149,10 +150,10 @@ static int find_or_add_dense_sample(Integrator *run, const Step *step, double fr
 }
 
 /*
- * Return value and slope of an event function in the stored sample `index`, at a fraction of the step; NAN for index
- * -1. Slopes are NAN for functions other than gaps.
+ * Return value and slope of an event function from the stored dense sample `index`, with the location `fraction`; NAN
+ * for index -1. Slopes are NAN for functions other than gaps.
  */
-static Sample get_bracket_point_of_sample(const DenseSamples *samples, int index, double fraction, int event)
+static Sample get_event_function_sample(const DenseSamples *samples, int index, double fraction, int event)
 {
     return index < 0 ? (Sample){fraction, NAN, NAN}
         : (Sample){fraction, samples->event_function[index][event], event < N_CLEARANCES ? samples->slope[index][event]
@@ -160,50 +161,50 @@ static Sample get_bracket_point_of_sample(const DenseSamples *samples, int index
 }
 
 /*
- * Return value and slope of an event function at a fraction of the step, evaluated if no sample is stored there. NAN if
- * the evaluation fails.
+ * Return value and slope of an event function at a fraction of the step. A stored dense sample at this fraction is
+ * reused; else the right-hand side is evaluated there, and the sample is stored. NAN if the evaluation fails.
  */
-static Sample evaluate_bracket_point(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+static Sample sample_event_function(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
     const int index = find_or_add_dense_sample(run, step, fraction, event, p);
-    return get_bracket_point_of_sample(&run->roots.samples, index, fraction, event);
+    return get_event_function_sample(&run->roots.samples, index, fraction, event);
 }
 
 /* Return the value of an event function at a fraction of the step; NAN if it cannot be evaluated. */
 static double evaluate_event_function_at(Integrator *run, const Step *step, double fraction, int event,
     const Parameters *p)
 {
-    return evaluate_bracket_point(run, step, fraction, event, p).f;
+    return sample_event_function(run, step, fraction, event, p).f;
 }
 
 /*
- * Return value and slope of the event function of a joint with play at a fraction of the step, by evaluating the
- * contacts alone. NAN if that fails.
+ * Return value and slope of the event function of a joint with play at a fraction of the step. A stored dense sample at
+ * this fraction is reused; else the contacts alone are evaluated there, and the sample is stored in run->roots.samples.
+ * NAN if that fails.
  */
-static Sample evaluate_gap_point(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+static Sample sample_gap_function(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
     int index = find_dense_sample(&run->roots.samples, fraction, 1);
     RhsOutputs rhs;
     if (index < 0 && !evaluate_contacts_in_step(run, step, fraction, p, &rhs))
         index = add_dense_sample(run, step, fraction, &rhs, 1);
-    return get_bracket_point_of_sample(&run->roots.samples, index, fraction, event);
+    return get_event_function_sample(&run->roots.samples, index, fraction, event);
 }
 
 /*
- * Return value and slope of an event function at the beginning of a step, as its lower bracket end. The slope is NAN if
- * it is not known.
+ * Return value and slope of an event function at the beginning of a step (fraction 0). The slope is NAN if it is not
+ * known.
  */
-static Sample get_bracket_begin(const Integrator *run, const Step *step, int event)
+static Sample sample_at_step_begin(const Integrator *run, const Step *step, int event)
 {
     return (Sample){0.0, compute_event_value(&run->discrete, &run->rhs, event),
         compute_event_function_slope(run, step, &run->rhs, event)};
 }
 
 /*
- * Return value and slope of an event function at the end of a step, as its upper bracket end. The slope is NAN if it is
- * not known.
+ * Return value and slope of an event function at the end of a step (fraction 1). The slope is NAN if it is not known.
  */
-static Sample get_bracket_end(const Integrator *run, const Step *step, int event)
+static Sample sample_at_step_end(const Integrator *run, const Step *step, int event)
 {
     return (Sample){1.0, compute_event_value(&run->discrete, &step->rhs, event),
         compute_event_function_slope(run, step, &step->rhs, event)};
@@ -242,13 +243,13 @@ static double compute_event_time_tolerance(const Integrator *run, const Step *st
 
 /*
  * Return whether an event function may be located a little after its zero: that of a compliant contact, or of a
- * switching point of a contact law whose branches meet. With steps of fixed length, and for watched functions
+ * switching point of a contact law whose branches meet. With steps of fixed length, and for monitored functions
  * (watched.c), it may not.
  */
 static int may_be_located_after_zero(const Integrator *run, int event)
 {
     const int switch_index = event - N_CLEARANCES;
-    if (run->control.fixed > 0.0 || watched_index[event] >= 0)
+    if (run->control.fixed > 0.0 || monitored_index[event] >= 0)
         return 0;
     return switch_index < 0 ? is_compliant(event) : switch_index < N_SWITCHES && is_continuous_switch[switch_index];
 }
@@ -310,8 +311,8 @@ static int evaluate_event_function(void *context, double fraction, Sample *sampl
 {
     EventFunctionOfStep *search = context;
     *sample = search->first && search->k < N_CLEARANCES
-        ? evaluate_gap_point(search->run, search->step, fraction, search->k, search->p)
-        : evaluate_bracket_point(search->run, search->step, fraction, search->k, search->p);
+        ? sample_gap_function(search->run, search->step, fraction, search->k, search->p)
+        : sample_event_function(search->run, search->step, fraction, search->k, search->p);
     search->first = 0;
     return 0;
 }

@@ -32,7 +32,7 @@ static int has_small_defect(void *context, double fraction, int is_certain)
         return 0;
     /* friction or a rigid contact may change its mode before a motion begins */
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        if (is_contact_force_function(run, k) && compute_event_value(&run->discrete, &rhs, k) < 0.0)
+        if (is_force_or_slip_function(run, k) && compute_event_value(&run->discrete, &rhs, k) < 0.0)
             return 0;
     for (int k = 0; k < N_Y; k++)
         largest = max_of(largest, fabs(step->h * dy[k]

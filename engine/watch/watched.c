@@ -4,9 +4,9 @@
  * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or positive.
  * No zero of the dense output is missed.
  *
- * Watched functions are the N_WATCHED event functions that this search monitors: switching functions and user events;
- * watched[i] is the number of function i among all event functions. WATCHES_STATE: whether any of them depends on more
- * than time. The functions are evaluated at the projected dense output.
+ * Monitored functions are the N_MONITORED event functions that this search monitors: switching functions and user
+ * events; monitored_event[i] is the number of function i among all event functions. MONITORS_STATE: whether any of them
+ * depends on more than time. The functions are evaluated at the projected dense output.
  */
 /* The dense output of a step in powers of the fraction s, for its bounds; begin t and length h of the step, s. */
 typedef struct {
@@ -15,48 +15,48 @@ typedef struct {
 } DensePolynomial;
 
 /*
- * Uncertainties of the watched event functions in a step (run/uncertainty.c): by rounding, and by an error of one
+ * Uncertainties of the monitored event functions in a step (run/uncertainty.c): by rounding, and by an error of one
  * tolerance of the state, each at the end of the step where it is less. They are computed on first use. Smaller values,
  * as of a velocity that a constraint holds at zero, neither end a step nor start a search.
  */
 typedef struct {
     int is_known;
-    double rounding[N_WATCHED], tolerance[N_WATCHED];
-    double whole_lower[N_WATCHED]; /* lower bound of the function over the whole step */
+    double rounding[N_MONITORED], tolerance[N_MONITORED];
+    double whole_lower[N_MONITORED]; /* lower bound of the function over the whole step */
 } EventUncertainties;
 
 /*
- * Compute the uncertainties of all watched functions in a step, by rounding and by one error tolerance: the minimum of
- * those at both ends. Does nothing if they are known. Called if the bounds of a function do not decide.
+ * Compute the uncertainties of all monitored functions in a step, by rounding and by one error tolerance: the minimum
+ * of those at both ends. Does nothing if they are known. Called if the bounds of a function do not decide.
  */
 static void estimate_uncertainties(
     Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
 {
-    double error[2 * N_X + 1], at_end[N_WATCHED];
+    double error[2 * N_X + 1], at_end[N_MONITORED];
     if (uncertainties->is_known)
         return;
     uncertainties->is_known = 1;
     for (int k = 0; k < 2 * N_X; k++)
         error[k] = 1.0 / run->norm.weight[k];
     estimate_rounding_uncertainty(run, step->t, run->y, p, uncertainties->rounding);
-    estimate_watched_function_errors(run, step->t, run->y, error, p, uncertainties->tolerance);
+    estimate_monitored_function_errors(run, step->t, run->y, error, p, uncertainties->tolerance);
     estimate_rounding_uncertainty(run, step->t + step->h, step->y, p, at_end);
-    for (int i = 0; i < N_WATCHED; i++)
+    for (int i = 0; i < N_MONITORED; i++)
         uncertainties->rounding[i] = min_of(uncertainties->rounding[i], at_end[i]);
-    estimate_watched_function_errors(run, step->t + step->h, step->y, error, p, at_end);
-    for (int i = 0; i < N_WATCHED; i++)
+    estimate_monitored_function_errors(run, step->t + step->h, step->y, error, p, at_end);
+    for (int i = 0; i < N_MONITORED; i++)
         uncertainties->tolerance[i] = min_of(uncertainties->tolerance[i], at_end[i]);
 }
 
 /*
  * Compute the projected state y (N_Y) at a fraction of a step, from the dense output. At its ends the states are known.
- * If watched functions depend on time alone, y is the state at the beginning or end instead.
+ * If monitored functions depend on time alone, y is the state at the beginning or end instead.
  */
 static void interpolate_projected_state(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y)
 {
     memcpy(y, fraction < 1.0 ? run->y : step->y, N_Y * sizeof *y);
-#if WATCHES_STATE
+#if MONITORS_STATE
     if (fraction > 0.0 && fraction < 1.0) {
         interpolate(run, step, fraction, y);
         project_state(run, step->t + fraction * step->h, y, p);
@@ -67,26 +67,26 @@ static void interpolate_projected_state(
 }
 
 /*
- * Return whether the magnitude of `value`, a watched function at a fraction of a step, is at most its uncertainty
- * there. index: of the watched function.
+ * Return whether the magnitude of `value`, a monitored function at a fraction of a step, is at most its uncertainty
+ * there. index: of the monitored function.
  */
 static int is_below_uncertainty(Integrator *run, const Step *step, double fraction, int index, double value,
     const Parameters *p)
 {
-    double y[N_Y], error[N_WATCHED];
+    double y[N_Y], error[N_MONITORED];
     interpolate_projected_state(run, step, fraction, p, y);
     estimate_rounding_uncertainty(run, step->t + fraction * step->h, y, p, error);
     return fabs(value) <= error[index];
 }
 
 /*
- * Return whether a watched function is zero within its uncertainty over a part of length `width`. Its values at both
- * ends are within rounding, and its bounds are within the tolerance, or narrow with the part because interval
- * arithmetic overestimates them. Return 0 if the function may be undefined in the part.
+ * Return whether a monitored function is zero within its uncertainty over a part of length `width`, as if a constraint
+ * kept it at zero. Its values at both ends are within the rounding uncertainty. Its lower bound is within the
+ * uncertainty by the tolerance, or narrows with the part because interval arithmetic overestimates it. Return 0 if the
+ * function may be undefined in the part.
  */
-static int is_held_at_zero(const EventUncertainties *uncertainties, int index, Interval bounds, double value_begin,
-    double value_end,
-    double width)
+static int is_zero_within_uncertainty(const EventUncertainties *uncertainties, int index, Interval bounds,
+    double value_begin, double value_end, double width)
 {
     return fabs(value_begin) <= uncertainties->rounding[index] && fabs(value_end) <= uncertainties->rounding[index]
         && !bounds.may_be_undefined
@@ -95,8 +95,8 @@ static int is_held_at_zero(const EventUncertainties *uncertainties, int index, I
 }
 
 /*
- * Evaluate all watched event functions at a fraction of a step: values (N_WATCHED), multiplied by branch or sign. At
- * the ends of the step the known outputs are used.
+ * Evaluate all monitored event functions at a fraction of a step: values (N_MONITORED), multiplied by branch or sign.
+ * At the ends of the step the known outputs are used.
  */
 static void evaluate_event_functions_at(Integrator *run, const Step *step, double fraction, const Parameters *p,
     double *values)
@@ -105,13 +105,13 @@ static void evaluate_event_functions_at(Integrator *run, const Step *step, doubl
     if (fraction > 0.0 && fraction < 1.0) {
         double y[N_Y];
         interpolate_projected_state(run, step, fraction, p, y);
-        watched_functions(step->t + fraction * step->h, y, y + N_X, &run->discrete, p, &rhs);
+        monitored_functions(step->t + fraction * step->h, y, y + N_X, &run->discrete, p, &rhs);
     }
-    for (int i = 0; i < N_WATCHED; i++)
-        values[i] = compute_event_value(&run->discrete, &rhs, watched[i]);
+    for (int i = 0; i < N_MONITORED; i++)
+        values[i] = compute_event_value(&run->discrete, &rhs, monitored_event[i]);
 }
 
-#if WATCHES_STATE
+#if MONITORS_STATE
 /*
  * Expand the dense output of a step into powers of the fraction s of the step, for coordinates and velocities. All
  * methods have the form y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))). polynomial: coefficients, degree, time and length of
@@ -160,15 +160,15 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
 
 #endif
 /*
- * Compute bounds (N_WATCHED) of all watched event functions from bounds of time t and of the state y. Each is
+ * Compute bounds (N_MONITORED) of all monitored event functions from bounds of time t and of the state y. Each is
  * multiplied by the frozen branch of its switching function, or by the stored sign of its user event.
  */
 static void bound_event_functions_over_box(const Integrator *run, Interval t, const Interval *y, const Parameters *p,
     Interval *bounds)
 {
-    bound_watched_functions(t, y, y + N_X, &run->discrete, p, bounds);
-    for (int i = 0; i < N_WATCHED; i++) {
-        const int k = watched[i] - N_CLEARANCES;
+    bound_monitored_functions(t, y, y + N_X, &run->discrete, p, bounds);
+    for (int i = 0; i < N_MONITORED; i++) {
+        const int k = monitored_event[i] - N_CLEARANCES;
         const double branch =
             k < N_SWITCHES ? run->discrete.branch[k] : run->discrete.event_sign[k - N_SWITCHES - N_FRICTIONS];
         bounds[i] = interval_mul(make_interval(branch), bounds[i]);
@@ -176,7 +176,7 @@ static void bound_event_functions_over_box(const Integrator *run, Interval t, co
 }
 
 /*
- * Compute bounds (N_WATCHED) of all watched event functions over the fractions `begin` to `end` of a step, from its
+ * Compute bounds (N_MONITORED) of all monitored event functions over the fractions `begin` to `end` of a step, from its
  * dense output. Called for each part that is bisected.
  */
 static void bound_event_functions(
@@ -186,7 +186,7 @@ static void bound_event_functions(
     const Interval t = {
         polynomial->t + begin * polynomial->h, polynomial->t + end * polynomial->h, polynomial->h, polynomial->h, 0};
     Interval y[2 * N_X + 1] = { {0} };
-#if WATCHES_STATE
+#if MONITORS_STATE
     bound_state(polynomial, begin, end, y);
 #endif
     bound_event_functions_over_box(run, t, y, p, bounds);
@@ -198,12 +198,12 @@ typedef struct {
     Step *step;
     const Parameters *p;
     DensePolynomial powers;
-    double values_begin[N_WATCHED];
+    double values_begin[N_MONITORED];
     EventUncertainties uncertainties;
 } WatchedStep;
 
 /*
- * Classify a watched function over a part of length `width` up to the fraction `end`, as classify_zero() does: 1 a
+ * Classify a monitored function over a part of length `width` up to the fraction `end`, as classify_zero() does: 1 a
  * zero, 0 none, -1 to be halved. index: of the function; bounds: over the part; *value_end: its value at the end, set
  * to 0 if it is below its uncertainty. A function that is held at zero has none. Parts over which a user-defined event
  * may be undefined are halved until its NaN is recorded. is_small: the part is not halved further.
@@ -212,7 +212,7 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
     int is_small,
     double *value_end)
 {
-    const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
+    const int event = monitored_event[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
     int result = classify_zero(bounds, search->values_begin[index], *value_end, width, is_small);
     if (width == 1.0)
         search->uncertainties.whole_lower[index] = bounds.lo;
@@ -222,30 +222,31 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
     }
     if (result < 0) {
         estimate_uncertainties(search->run, search->step, &search->uncertainties, search->p);
-        result =
-            -!is_held_at_zero(&search->uncertainties, index, bounds, search->values_begin[index], *value_end, width);
+        result = -!is_zero_within_uncertainty(
+            &search->uncertainties, index, bounds, search->values_begin[index], *value_end, width);
     }
     const int may_become_nan = bounds.may_be_undefined && event >= 0 && !search->run->events.is_nan_reported[event];
     return may_become_nan && !is_small ? -1 : result;
 }
 
 /*
- * Classify the part [begin, end] of a step, as the callback of bisect_interval(): 1 if a watched function has its first
- * zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined events
- * that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved further.
+ * Classify the part [begin, end] of a step, as the callback of bisect_interval(): 1 if a monitored function has its
+ * first zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined
+ * events that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved
+ * further.
  */
 static int classify_event_functions(void *context, double begin, double end, int is_small)
 {
     WatchedStep *search = context;
     Integrator *run = search->run;
     Step *step = search->step;
-    Interval bounds[N_WATCHED];
-    double values_end[N_WATCHED];
+    Interval bounds[N_MONITORED];
+    double values_end[N_MONITORED];
     int has_zero = 0;
     evaluate_event_functions_at(run, step, end, search->p, values_end);
     bound_event_functions(run, &search->powers, begin, end, search->p, bounds);
-    for (int i = 0; i < N_WATCHED; i++) {
-        const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
+    for (int i = 0; i < N_MONITORED; i++) {
+        const int event = monitored_event[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
         const int result = classify_event_function(search, i, bounds[i], end, end - begin, is_small, &values_end[i]);
         if (result < 0)
             return -1;
@@ -267,17 +268,17 @@ static int classify_event_functions(void *context, double begin, double end, int
     return has_zero;
 }
 
-#if WATCHES_STATE
+#if MONITORS_STATE
 /*
- * Return whether no watched function can be negative between the stages of an explicit step. Bounds of the state are
+ * Return whether no monitored function can be negative between the stages of an explicit step. Bounds of the state are
  * the range of the stages, extended by a quarter; they decide most steps. A function that may be undefined in these
- * bounds or is negative at the end gives 0, unless it is held at zero within its uncertainty. uncertainties: computed
+ * bounds or is negative at the end gives 0, unless it is zero within its uncertainty. uncertainties: computed
  * when first needed. Called by bracket_first_zeros() before the dense output is bounded.
  */
 static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
     const Parameters *p)
 {
-    Interval bounds[N_WATCHED], y[2 * N_X + 1] = { {0} };
+    Interval bounds[N_MONITORED], y[2 * N_X + 1] = { {0} };
     const Interval t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
     for (int k = 0; k < 2 * N_X; k++) {
         const double lower = min_of(step->min_state[k], min_of(run->y[k], step->y[k]));
@@ -285,13 +286,13 @@ static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, Event
         y[k] = (Interval){lower - beyond, upper + beyond, -INFINITY, INFINITY, 0};
     }
     bound_event_functions_over_box(run, t, y, p, bounds);
-    for (int i = 0; i < N_WATCHED; i++) {
-        const double from = compute_event_value(&run->discrete, &run->rhs, watched[i]);
-        const double to = compute_event_value(&run->discrete, &step->rhs, watched[i]);
+    for (int i = 0; i < N_MONITORED; i++) {
+        const double from = compute_event_value(&run->discrete, &run->rhs, monitored_event[i]);
+        const double to = compute_event_value(&run->discrete, &step->rhs, monitored_event[i]);
         if (bounds[i].lo >= 0.0 && !bounds[i].may_be_undefined && !(to < 0.0))
             continue;
         estimate_uncertainties(run, step, uncertainties, p);
-        if (!is_held_at_zero(uncertainties, i, bounds[i], from, to, 1.0))
+        if (!is_zero_within_uncertainty(uncertainties, i, bounds[i], from, to, 1.0))
             return 0;
     }
     return 1;
@@ -299,16 +300,16 @@ static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, Event
 
 #endif
 /*
- * Bracket the first zero of each watched event function along a tried step: step->bracket_begin and step->bracket_end
+ * Bracket the first zero of each monitored event function along a tried step: step->bracket_begin and step->bracket_end
  * enclose it; both 0: none. Also stores the values there, step->value_at_begin and step->value_at_end. If bounds by the
  * stages exclude zeros, or without dense output, nothing is searched. Called by find_first_event().
  */
 static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p)
 {
     WatchedStep search = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
-    for (int i = 0; i < N_WATCHED; i++)
+    for (int i = 0; i < N_MONITORED; i++)
         step->bracket_begin[i] = step->bracket_end[i] = 0.0;
-#if WATCHES_STATE
+#if MONITORS_STATE
     if ((!step->method->stiff && are_zeros_excluded_by_stages(run, step, &search.uncertainties, p))
         || compute_dense_output(run, p, step))
         return;
@@ -318,7 +319,7 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
     (void)bisect_interval(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
 }
 
-/* Return 0, the step is resolved: bounds of the watched functions resolve every step. */
+/* Return 0, the step is resolved: bounds of the monitored functions resolve every step. */
 static int is_step_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
@@ -326,8 +327,8 @@ static int is_step_unresolved(const Integrator *run, const Step *step, const Par
 }
 
 /*
- * Return the fraction of the step at which a watched function is first negative, the bracket end step->bracket_end that
- * bracket_first_zeros() has found, and its value there in *value; 0: nowhere. index: of the watched function.
+ * Return the fraction of the step at which a monitored function is first negative, the bracket end step->bracket_end
+ * that bracket_first_zeros() has found, and its value there in *value; 0: nowhere. index: of the monitored function.
  */
 static double find_first_negative_sample(const Integrator *run, const Step *step, int index, const Parameters *p,
     double *value)

@@ -268,23 +268,24 @@ static inline int detect_event_crossing(int event, signed char *sign, double val
     return sign_before * sign_now < 0 && event_direction[event] * sign_now >= 0;
 }
 
-#if N_WATCHED && KNOWN_BOUNDS
+#if N_MONITORED && KNOWN_BOUNDS
 /*
- * Estimate by how much errors of positions and velocities (q_error, v_error, n_coordinates each) change each watched
- * function: uncertainty (N_WATCHED), half widths of its bounds over the box of these errors. 0 where the bounds are
+ * Estimate by how much errors of positions and velocities (q_error, v_error, n_coordinates each) change each monitored
+ * function: uncertainty (N_MONITORED), half widths of its bounds over the box of these errors. 0 where the bounds are
  * infinite, at a pole. The time has an error of 4 ulp.
  */
 static inline void estimate_error_by_bounds(double t, const double *q, const double *v, const double *q_error,
     const double *v_error, int n_coordinates, const DiscreteState *discrete, const Parameters *p, double *uncertainty)
 {
-    Interval q_bounds[N_Q + N_X], v_bounds[N_Q + N_X], bounds[N_WATCHED];
+    Interval q_bounds[N_Q + N_X], v_bounds[N_Q + N_X], bounds[N_MONITORED];
     const double t_error = 4.0 * DBL_EPSILON * fabs(t);
     for (int k = 0; k < n_coordinates; k++) {
         q_bounds[k] = (Interval){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
         v_bounds[k] = (Interval){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
     }
-    bound_watched_functions((Interval){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
-    for (int i = 0; i < N_WATCHED; i++)
+    bound_monitored_functions(
+        (Interval){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
+    for (int i = 0; i < N_MONITORED; i++)
         uncertainty[i] = isfinite(bounds[i].hi - bounds[i].lo) ? 0.5 * (bounds[i].hi - bounds[i].lo) : 0.0;
 }
 #endif

@@ -55,8 +55,8 @@ class AppliedElement:
                 forces[k + 2] += point.arm[0] * load.y - point.arm[1] * load.x + load.moment
 
 
-def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
-    """Return a force element with the frames of its points and its loads; `t` is the symbol of time."""
+def build_applied_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
+    """Return a force element with the frames of its points and the loads of its type; `t` is the symbol of time."""
     targets = tuple(geometry.find_point(ref) for ref in element.targets)
     loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)

@@ -132,11 +132,12 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
 
 
 def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[str], depth: int) -> bool:
-    """Return whether an override may add a key to the file: one with a default, an inherited number, a component.
+    """Return whether an override may add the key `keys[0]`, which the file does not have.
 
-    `field_of_child` declares the key `keys[0]` in the mapping that `field` declares; both are None for undeclared
-    keys. `depth`: number of keys before `keys[0]` on the path. Entries of a section must exist in the file. Unknown
-    keys deeper in the tree are reported when they are read.
+    `field` declares the mapping and `field_of_child` its key `keys[0]`; None: not declared. `depth`: number of keys
+    before `keys[0]` on the path. At the top of the file, a declared section may be added; a section of named entries
+    (`MAPPING`) only if `keys[1]` is an entry that always exists (`given`). Of the named entries of a section only these
+    may be added. All keys deeper in the tree may be added; unknown ones are reported when they are read.
     """
     if depth == 0:
         return field_of_child is not None and (

@@ -101,7 +101,10 @@ class Rules(ABC):
         return f"{name}_{k}"
 
     def define_value(self, value: sp.Expr) -> sp.Symbol:
-        """Return a symbol for a value: the value itself if it is one, a local with that value, or a new local."""
+        """Return a symbol for a value, which is defined as a local if it has none yet.
+
+        A value that is a symbol is returned unchanged.
+        """
         if value.is_Symbol:
             return value
         return (
@@ -110,7 +113,7 @@ class Rules(ABC):
             else self.define_local(self.make_unique_name("part"), value)
         )
 
-    def define_series(self, value: sp.Expr) -> sp.Symbol:
+    def define_series_symbol(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of a local that holds a value as a series in time.
 
         A constant gets a new local, whose coefficients are 0 above order 0.
@@ -245,7 +248,7 @@ class Rules(ABC):
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
             raise NoTaylorSeries(f"{type(value).__name__.lower()}() has switching points, or its series is not known")
-        u = [self.define_series(x) for x in value.args]
+        u = [self.define_series_symbol(x) for x in value.args]
         order_k = (
             _expand_by_derivative(self, derivative, u[0], symbol_of_value)
             if derivative

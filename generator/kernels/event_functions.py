@@ -27,7 +27,7 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Select
 from gudgeon.generator.symbols.unevaluated import Unevaluated
 
-EVENT_FUNCTIONS, _RANGES = "watched_functions", "bound_watched_functions"
+EVENT_FUNCTIONS, _RANGES = "monitored_functions", "bound_monitored_functions"
 _EVENT_FUNCTIONS_DOC = (
     "Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",
 )

@@ -77,7 +77,7 @@ AUDIT_CHECK_NAMES = (
 )
 
 # enum FrictionMode
-MODE_HELD: Final = 2
+MODE_CONSTRAINED: Final = 2
 
 # enum Capacity
 MAX_LISTED: Final = 256

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.contract.audit import Finding
-from gudgeon.contract.boundary import MAX_STICK_SPEED, MODE_HELD
+from gudgeon.contract.boundary import MAX_STICK_SPEED, MODE_CONSTRAINED
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array
 from gudgeon.model.evaluation import FIELD_NAMES, Evaluation
@@ -168,7 +168,7 @@ def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array
     source, notes = problem.compiled.source, list[str]()
     for k, name in enumerate(source.frictions):
         mode, slip = memory[:, len(source.clearances) + k], slips[:, k]
-        rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= MAX_STICK_SPEED))
+        rests = (mode != 0.0) & ((mode == MODE_CONSTRAINED) | (np.abs(slip) <= MAX_STICK_SPEED))
         rests_successively = rests[1:] & rests[:-1]
         static = source.slot_index.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
         if rests_successively.any() and static is not None and problem.p[static] > 0.0:

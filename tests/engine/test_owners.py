@@ -182,8 +182,8 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
 @pytest.mark.parametrize(
     ("line", "found"),
     [
-        ("run->contacts.n_impacts = 0;", "Contacts"),
-        ("run->contacts.impacts[run->contacts.n_impacts++] = contact;", "Contacts"),
+        ("run->contacts.n_records = 0;", "Contacts"),
+        ("run->contacts.records[run->contacts.n_records++] = contact;", "Contacts"),
         ("flow->run[i]->control.attempt.is_open |= 1;", "StepControl"),
         ("--side->x.counts.steps;", "Counts"),
         ("((Integrator *)memory)->events.stop = stop;", "EventList"),
@@ -192,7 +192,7 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
         ("frexp(x, &run->choice.n_opposing_steps);", "MethodChoice"),
         ("*run = (Integrator){.t = t, .roots = {.suppressed_switch = -1}};", "RootFinding"),
         ("static void f(StepControl *control) { control->h = 1.0; }", "StepControl"),
-        ("if (run->contacts.n_impacts == 0 && run->control.h <= 1.0) return;", None),
+        ("if (run->contacts.n_records == 0 && run->control.h <= 1.0) return;", None),
         ("memcpy(speed, run->norm.speed, sizeof speed);", None),
         ("const double *weight = run->norm.weight; const double h = run->control.h;", None),
         ("newton_solve(&run->newton.linear, h, 0.0, mean, error);", None),

@@ -87,8 +87,8 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     right = loader(tmp_path)(CYLINDER, "worn")
     assert not reported(right, 6.0)
     heading = "    /* directions, arms, drives */"
-    ranges = part_of(right.source.files["watched.c"], "bound_watched_functions", heading, "}\n")
-    values = part_of(right.source.files["reduced.c"], "void watched_functions", heading, "\n}")
+    ranges = part_of(right.source.files["watched.c"], "bound_monitored_functions", heading, "}\n")
+    values = part_of(right.source.files["reduced.c"], "void monitored_functions", heading, "\n}")
     garbage = "    out[0] = out[1] = (Interval){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
     stale = "    rhs->g[0] = rhs->g[1] = -1.0;"
     wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
@@ -101,8 +101,8 @@ def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
     """Fault 07: velocities that stick are not put at rest and have no uncertainty: changes of their sign are events."""
     right = loader(tmp_path)(STUCK)
     assert not reported(right, 2.5, method=method)
-    known = "    estimate_watched_function_errors(run, t, y, error, p, uncertainty);\n"
-    exact = "    for (int i = 0; i < N_WATCHED; i++)\n        uncertainty[i] = 0.0;\n"
+    known = "    estimate_monitored_function_errors(run, t, y, error, p, uncertainty);\n"
+    exact = "    for (int i = 0; i < N_MONITORED; i++)\n        uncertainty[i] = 0.0;\n"
     drifts = ("engine/run/slips.c", "fabs(v) <= MIN_SLIP", "fabs(v) <= INFINITY")
     wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact), drifts)
     assert "check event" in reported(wrong, 2.5, method=method)

@@ -65,8 +65,8 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "compute_body_motion": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
     "project": {"x": "N_Q"},
     "time_terms": {"out": "N_TERMS"},
-    "watched_functions": {"rhs->event": "N_USER_EVENTS"},
-    "bound_watched_functions": {"out": "N_WATCHED"},
+    "monitored_functions": {"rhs->event": "N_USER_EVENTS"},
+    "bound_monitored_functions": {"out": "N_MONITORED"},
 }
 
 
@@ -76,7 +76,7 @@ class Emitted:
     def __init__(self, source: KernelSource) -> None:
         self.header = header = source.files["model.h"]
         self.sizes = {name: int(value) for name, value in re.findall(r"#define (\w+) (-?\d+)\b", header)}
-        watched = re.search(r"watched\[\] = \{([^}]*)\}", header)
+        watched = re.search(r"monitored_event\[\] = \{([^}]*)\}", header)
         assert bool(watched) == bool(self.sizes["INTEGRATES"])
         self.watched = [int(x) for x in watched[1].split(",")] if watched else []
         texts = {name: text for name, text in source.files.items() if name.endswith(".c") and name != "lanes.c"}
@@ -120,11 +120,11 @@ class Emitted:
         }
         if left := sorted(set(range(count)) - message):
             yield f"{main}: rhs->g{left} of N_SWITCHES"
-        own = {k - first for k in self.watched if first <= k < first + count} if self.sizes["N_WATCHED"] else set()
-        if "watched_functions" in self.bodies:
-            assigned = {int(k) for array, k in ASSIGNED.findall(self.body("watched_functions")) if array == "rhs->g"}
+        own = {k - first for k in self.watched if first <= k < first + count} if self.sizes["N_MONITORED"] else set()
+        if "monitored_functions" in self.bodies:
+            assigned = {int(k) for array, k in ASSIGNED.findall(self.body("monitored_functions")) if array == "rhs->g"}
             if left := sorted(own - assigned):
-                yield f"watched_functions: rhs->g{left} of N_WATCHED"
+                yield f"monitored_functions: rhs->g{left} of N_MONITORED"
 
 
 def check(data: bytes, name: str, scene: str, formulation: str) -> None:

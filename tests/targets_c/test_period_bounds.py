@@ -19,7 +19,7 @@ enum { RATE_JUMPS = 0 };
 #include "engine/watch/ranges.h"
 double value(double a, double b, double side)
 {
-    return side == 2.0 ? mod_switching_function(a, b) : mod_on(a, b, side);
+    return side == 2.0 ? mod_switching_function(a, b) : mod_on_branch(a, b, side);
 }
 void bounds(double lo, double hi, double b, double side, double *out)
 {

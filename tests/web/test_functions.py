@@ -137,7 +137,7 @@ def test_bits_are_those_of_a_page(values: Values, tmp_path: Path) -> None:
 def tables() -> dict[str, list[list[float]]]:
     """Those of powers.h."""
     text = (ENGINE / "scene" / "powers.h").read_text(encoding="utf-8")
-    bodies = re.findall(r"double (\w+)\[POWER_PARTS\]\[\d\] = \{(.*?)\n\};", text, re.DOTALL)
+    bodies = re.findall(r"double (\w+)\[POWER_TABLE_ROWS\]\[\d\] = \{(.*?)\n\};", text, re.DOTALL)
     rows = {name: re.findall(r"\{([^{}]*)\}", body) for name, body in bodies}
     return {name: [[float.fromhex(x) for x in row.split(",")] for row in found] for name, found in rows.items()}
 

@@ -139,7 +139,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 /*
  * Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.
  */
-void watched_functions(const double t, const double *q, const double *v, const DiscreteState *discrete,
+void monitored_functions(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, RhsOutputs *rhs)
 {
     (void)t, (void)v, (void)discrete;

@@ -36,9 +36,9 @@
 #define HAS_LANES 1             /* runs in vector lanes */
 #define DRIVE_IMPULSES 0        /* 1: rates of drives may jump, and there are degrees of freedom */
 #define RATE_JUMPS 0            /* 1: the rate of a drive may jump */
-#define N_WATCHED 0             /* monitored switching functions and user events */
+#define N_MONITORED 0           /* monitored switching functions and user events */
 #define KNOWN_BOUNDS 0          /* 1: bounds of monitored functions over ranges of the state are known */
-#define WATCHES_STATE 0         /* 1: the bounds depend on the state, not only on time */
+#define MONITORS_STATE 0        /* 1: the bounds depend on the state, not only on time */
 #define N_TERMS 0               /* terms that depend on time only, whose changes a step may miss */
 #define N_TRANSIENTS 0          /* the first of these: transients that a step of any motion may miss */
 #define N_GUESS 5               /* coordinates that the start gives as guesses */

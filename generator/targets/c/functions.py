@@ -82,8 +82,8 @@ CALLED_BY_ENGINE = frozenset(
         "close_step",
         "compute_body_motion",
         "project",
-        "watched_functions",
-        "bound_watched_functions",
+        "monitored_functions",
+        "bound_monitored_functions",
         "time_terms",
     }
 )

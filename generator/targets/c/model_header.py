@@ -164,7 +164,7 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
             "1: rates of drives may jump, and there are degrees of freedom",
         ),
         "RATE_JUMPS": (int(has_drive_with_jumps(model)), "1: the rate of a drive may jump"),
-        "N_WATCHED": (
+        "N_MONITORED": (
             len(find_monitored_switches(program)) + len(model.events),
             "monitored switching functions and user events",
         ),
@@ -172,7 +172,7 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
             int(bounds is not None),
             "1: bounds of monitored functions over ranges of the state are known",
         ),
-        "WATCHES_STATE": (
+        "MONITORS_STATE": (
             int(bounds is not None and depends_on_state(bounds)),
             "1: the bounds depend on the state, not only on time",
         ),
@@ -357,7 +357,7 @@ def _print_table(c_type: str, name: str, values: Iterable[int]) -> str:
 def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[str, str], Sequence[int]]:
     """Return {(C type, table): values} of the tables by which the integrator monitors event functions.
 
-    `watched` lists the monitored functions, `watched_index` their positions in it (−1: none), and
+    `monitored_event` lists the monitored functions, `monitored_index` their positions in it (−1: none), and
     `is_continuous_switch` has a flag for each switching function. Indices count gaps of joints with play, then
     switching functions, frictions and user events.
     """
@@ -367,8 +367,8 @@ def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[
     event_functions += range(first, first + int(count["N_USER_EVENTS"]))
     position = {k: i for i, k in enumerate(event_functions)}
     return {
-        ("short", "watched"): event_functions,
-        ("short", "watched_index"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
+        ("short", "monitored_event"): event_functions,
+        ("short", "monitored_index"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
         ("unsigned char", "is_continuous_switch"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
     }
 

@@ -29,7 +29,8 @@ _JOURNAL = ("e_x", "e_y", "")
 _AT_WALL = ("e * n_x", "e * n_y", " + along * F.n")  # of a slider's corner: along its wall's normal
 _RATIO = "contact->closed ? deltadot / contact->deltadot_minus : 1.0"  # δ̇/δ̇⁻
 _PRESCRIBED_FRICTION = (
-    "if (contact->smooth)\n        F_along_t_dry = contact->along; /* impacts prescribe the friction */"
+    "if (contact->is_frictionless)\n"
+    "        F_along_t_dry = contact->tangential_force; /* impacts prescribe the friction */"
 )
 CLOSED = "branch ? contact->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja

@@ -240,7 +240,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_ModOn(self, expr: sp.Expr) -> str:
         """Print a remainder on the period that its branch selects."""
-        return self._print_call("mod_on", *expr.args)
+        return self._print_call("mod_on_branch", *expr.args)
 
     def _print_PeriodsOf(self, expr: sp.Expr) -> str:
         """Print the event function of a remainder's periods."""

@@ -48,7 +48,7 @@ const mod_of = (a, b) => {
     const remainder = a % b;
     return remainder !== 0 && remainder < 0 !== b < 0 ? remainder + b : remainder;
 };
-const mod_on = (a, b) => mod_of(a, b), isfinite = isFinite;
+const mod_on_branch = (a, b) => mod_of(a, b), isfinite = isFinite;
 const in_ground_axes = ({n, t, M_i, M_j}, n_x, n_y, stored) => Object.assign(stored, {
     force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
 });

@@ -33,9 +33,9 @@
 #define HAS_LANES 0
 #define DRIVE_IMPULSES 0
 #define RATE_JUMPS 0
-#define N_WATCHED 0
+#define N_MONITORED 0
 #define KNOWN_BOUNDS 0
-#define WATCHES_STATE 0
+#define MONITORS_STATE 0
 #define N_TERMS 0
 #define N_TRANSIENTS 0
 #define N_GUESS 0
@@ -68,8 +68,8 @@ static const int phi_q_first[] = {0};
 static const short phi_q_column[] = {0};
 static const unsigned char is_angle[] = {0};
 static const unsigned char film_joint[] = {0};
-static const short watched[] = {0};
-static const short watched_index[] = {-1, -1};
+static const short monitored_event[] = {0};
+static const short monitored_index[] = {-1, -1};
 static const unsigned char is_continuous_switch[] = {0};
 static const int friction_of_pivot[] = {0};
 

@@ -21,8 +21,8 @@ static void begins_and_ends(void)
     update_compression(&run, 0, -1.0);
     CHECK(!contacts->is_compressing[0]);
     changes(7.5, -2.0);
-    CHECK(!run.discrete.contact[0].closed && contacts->n_impacts == 1);
-    CHECK(contacts->impacts[0].t_on == 2.0 && contacts->impacts[0].t_off == 7.5);
+    CHECK(!run.discrete.contact[0].closed && contacts->n_records == 1);
+    CHECK(contacts->records[0].t_on == 2.0 && contacts->records[0].t_off == 7.5);
 
     /* the rate of an onset is at least the floor of the law */
     changes(8.0, 1e-9);
@@ -36,7 +36,7 @@ static void begins_and_ends(void)
     run.rhs.clearance[0].delta = -0.5;
     CHECK(initialize_compliant_contacts(&run, &p) && !run.discrete.contact[0].closed
         && !initialize_compliant_contacts(&run, &p));
-    run.contacts.n_impacts = 1;
+    run.contacts.n_records = 1;
     changes(8.0, 1.0);
 }
 
@@ -66,22 +66,22 @@ static void lists(void)
     int joints[LISTED_IMPACTS + 1];
     update_peak_force(&run, 0, 3.25, 9.0);
     update_largest_eccentricity(&run, 0, 0.75);
-    CHECK(!append_contact(&run, &(Impact){3.0, 3.5, 1.0, 9.0, 3.25, 0}));
-    CHECK(run.contacts.n_impacts == 2 && run.contacts.F_peak[0] == 9.0 && run.contacts.e_max[0] == 0.75);
+    CHECK(!append_contact(&run, &(ContactRecord){3.0, 3.5, 1.0, 9.0, 3.25, 0}));
+    CHECK(run.contacts.n_records == 2 && run.contacts.F_peak[0] == 9.0 && run.contacts.e_max[0] == 0.75);
     CHECK(gudgeon_run_impacts(&run, 0, 1, numbers, joints) == 1); /* the oldest first */
-    CHECK(CLOSE(numbers[IMPACT_t_off], 7.5, 1e-14) && run.contacts.n_impacts == 1);
+    CHECK(CLOSE(numbers[IMPACT_t_off], 7.5, 1e-14) && run.contacts.n_records == 1);
     CHECK(gudgeon_run_impacts(&run, 1, 10, numbers, joints) == 2); /* with the one that lasts, once */
     CHECK(numbers[IMPACT_F_peak] == 9.0 && isnan(numbers[N_IMPACT_COLUMNS + IMPACT_t_off]));
     CHECK(gudgeon_run_impacts(&run, 1, 10, numbers, joints) == 0);
 
     /* an impulse is added to the last one of the same joint at the same time */
-    const Impact bounce = {run.t, run.t, 1.0, 2.0, run.t, 0};
+    const ContactRecord bounce = {run.t, run.t, 1.0, 2.0, run.t, 0};
     CHECK(!append_impact(&run, &bounce, 0, 1) && !append_impact(&run, &bounce, 1, 0));
-    CHECK(run.contacts.n_impacts == 1 && run.contacts.impacts[0].F_peak == 4.0);
-    while (run.contacts.n_impacts < LISTED_IMPACTS)
+    CHECK(run.contacts.n_records == 1 && run.contacts.records[0].F_peak == 4.0);
+    while (run.contacts.n_records < LISTED_IMPACTS)
         CHECK(!append_contact(&run, &bounce));
     CHECK(has_full_buffers(&run) && append_contact(&run, &bounce) == CHATTERING
-        && run.contacts.n_impacts == LISTED_IMPACTS);
+        && run.contacts.n_records == LISTED_IMPACTS);
 }
 
 int main(void)
