@@ -30,9 +30,10 @@ class LineMarks:
 def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
     """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
 
-    A mark is a text, such as the name of a result. A line has its own marks, `find_marks(line)`, and those of all
-    later lines that depend on it. The result maps the target of each line, and each parameter that is read, to a set
-    of marks; entries without marks are left out.
+    The lines with one mark are a backward slice of the function. A mark is a text, such as the name of a result. A line
+    has its own marks, `find_marks(line)`, and those of all later lines that depend on it. The result has two maps:
+    marks by the target of each line, and marks by the storage location of each parameter that is read. Entries without
+    marks are left out.
     """
     marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
     marks_of_stored: defaultdict[Key, set[str]] = defaultdict(set)

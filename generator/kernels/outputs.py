@@ -44,7 +44,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
             builder.append_store(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
         builder.append_store(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
-    for k, (name, (value, _)) in enumerate(find_element_series(model).items()):
+    for k, (name, (value, _)) in enumerate(list_force_element_series(model).items()):
         builder.append_store(Place("series")[k], value, name)
     builder.begin_section("energy")
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
@@ -57,7 +57,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
     return builder.build_kernel((*STATE, PARAMETERS, make_input_argument("lambda"), *results))
 
 
-def find_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
+def list_force_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
     """Return the output series of all force elements by name: {"coil.F": (expression, unit)}."""
     return {
         f"{name}.{series_name}": value

@@ -53,7 +53,7 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
     return builder.build_kernel(arguments, status=True), kkt
 
 
-def add_film_masses(system: System) -> System:
+def add_eccentricity_weights(system: System) -> System:
     """Return the system with the mass matrix M + κ Σ BᵀB for projections, B = ∂e/∂q of each joint with a film.
 
     κ is FILM_MASS_FACTOR times the mass of all bodies. Without films or equations the system itself is returned.
@@ -108,11 +108,11 @@ def make_constraint_correction_kernel(system: System, name: str = "closing_step"
     """Return the kernel of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
 
     Both use one factorization. Small masses are raised (`raise_small_masses`), and motions that squeeze a film are
-    weighted with a large mass (`add_film_masses`), so that e and ė nearly keep their values. `name`: the function's
-    name.
+    weighted with a large mass (`add_eccentricity_weights`), so that e and ė nearly keep their values. `name`: the
+    function's name.
     """
     metric_system = raise_small_masses(system)
-    kkt = KKT(add_film_masses(metric_system), system.rows)
+    kkt = KKT(add_eccentricity_weights(metric_system), system.rows)
     film_comment = (
         []
         if kkt.system is metric_system

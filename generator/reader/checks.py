@@ -100,7 +100,7 @@ def _check_with_parameters(
 def _find_unreadable_numbers(
     reader: Reader, parameters: Mapping[str, Quantity], ordered_names: Iterable[str]
 ) -> set[str]:
-    """Return parameters and addresses of numbers that could not be read, or that depend on such a number.
+    """Return parameters and addresses of numbers that could not be read (NaN), or that depend on such a number.
 
     `ordered_names`: names of the parameters, each after those that it depends on.
     """
@@ -147,7 +147,7 @@ def _is_caused_by_error(reader: Reader, quantity: Quantity, wrong_addresses: Con
 
 
 def _describe_users_of_expression(reader: Reader, address: str) -> str:
-    """Return a phrase that names the values that use a named expression.
+    """Return a phrase that names the values that use a named expression, such as ", and forces.coil.value uses it".
 
     "" for the address of another number, and for an expression that only other expressions use.
     """
@@ -212,18 +212,21 @@ def _find_underflow(expr: Expr, parameter_numbers: Mapping[str, float]) -> float
     return next((value for part in inner if (value := _find_underflow(part, parameter_numbers)) is not None), None)
 
 
-def _find_underflowing_value(part: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
-    """Return the value of a product, quotient or power of nonzero numbers if it underflows, else None.
+def _find_underflowing_value(expression: Expr, parameter_values: Mapping[str, float]) -> float | None:
+    """Return the value of a product, quotient or power of nonzero finite numbers if it underflows, else None.
 
-    None also if the part contains names without a known value.
+    An underflow is a magnitude below the smallest normal number. None also for other expressions, and if the expression
+    contains names without a known value.
     """
     if (
-        not isinstance(part, Binary)
-        or part.operator in ("+", "-")
-        or any(n.path not in parameter_numbers for n in iterate_names(part))
+        not isinstance(expression, Binary)
+        or expression.operator in ("+", "-")
+        or any(n.path not in parameter_values for n in iterate_names(expression))
     ):
         return None
-    value, left, right = (float(evaluate(x, parameter_numbers.__getitem__)) for x in (part, part.left, part.right))
+    value, left, right = (
+        float(evaluate(x, parameter_values.__getitem__)) for x in (expression, expression.left, expression.right)
+    )
     return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 

@@ -42,7 +42,7 @@ from gudgeon.generator.ir.signatures import (
 from gudgeon.generator.ir.statements import Call, Declare, DeclareParameters, Guard, Return, Statement
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
-from gudgeon.generator.solvers.linearization import Linearization, LinearizedParts, Pair
+from gudgeon.generator.solvers.linearization import JacobianEntries, Linearization, Pair
 from gudgeon.generator.solvers.pivots import SINGULAR, is_number_or_signed_symbol
 from gudgeon.generator.solvers.sparsity import choose_elimination
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
@@ -83,10 +83,10 @@ class Newton:
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _make_linearize_kernel(self) -> Kernel:
-        """Return the kernel `linearize`, which writes all parts of the linearization at a state to `lin->value`.
+        """Return the kernel `linearize`, which writes the entries of all Jacobians at a state to `lin->value`.
 
-        It also copies the parameters to `lin`. Sets `parts` (entries as symbols that read `lin->value`), `stick_flags`
-        (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_entry_tables`).
+        It also copies the parameters to `lin`. Sets `jacobians` (entries as symbols that read `lin->value`),
+        `stick_flags` (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_entry_tables`).
         """
         builder = self._begin_function(
             "linearize",
@@ -97,9 +97,9 @@ class Newton:
             ],
         )
         linearization = Linearization(self.system, builder)
-        parts = linearization.derive_parts()
+        jacobians = linearization.derive_jacobian_entries()
         builder.begin_section("results")
-        self.parts = self._store_parts(builder, parts, linearization.tangents)
+        self.jacobians = self._store_jacobian_entries(builder, jacobians, linearization.tangents)
         self.stick_flags = [
             self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
         ]
@@ -115,8 +115,10 @@ class Newton:
         )
         return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
-    def _store_parts(self, builder: KernelBuilder, parts: LinearizedParts, tangents: Tangents) -> LinearizedParts:
-        """Return the parts of the linearization with each value stored in the array `lin->value`, once up to its sign.
+    def _store_jacobian_entries(
+        self, builder: KernelBuilder, jacobians: JacobianEntries, tangents: Tangents
+    ) -> JacobianEntries:
+        """Return the entries of the Jacobians with each value stored in the array `lin->value`, once up to its sign.
 
         Values of the result are the symbols that read the array. `tangents` stores shared denominators and powers.
         """
@@ -125,13 +127,13 @@ class Newton:
             """Return the symbol of a value that is stored in the pool; `name`: base of its name."""
             return self.values.store_value(builder, tangents.store_powers(value), name)
 
-        def store_part(
+        def store_matrix(
             prefix: str,
             part: Mapping[Pair, sp.Expr],
             row_names: Sequence[str],
             column_names: Sequence[str] = self.names,
         ) -> dict[Pair, sp.Expr]:
-            """Return the stored entries of one part, named after it and its row and column."""
+            """Return the stored entries of one matrix, named `prefix` and its row and column."""
             return {
                 (i, j): store_value(value, f"{prefix}_{row_names[i]}_{column_names[j]}")
                 for (i, j), value in part.items()
@@ -139,18 +141,18 @@ class Newton:
 
         states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
-        return LinearizedParts(
-            store_part("mass", parts.mass, self.names),
-            store_part("phi", parts.phi_q, self.names),
-            store_part("by_q", parts.by_q, self.names),
-            store_part("by_v", parts.by_v, self.names),
-            store_part("by_z", parts.by_z, self.names, states),
-            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
-            store_part("power_q", parts.power_q, works),
-            store_part("power_v", parts.power_v, works),
-            store_part("power_z", parts.power_z, works, states),
-            store_part("power", parts.power_row, works),
-            {w: store_value(x, f"power_t_{w}") for w, x in parts.power_t.items()},
+        return JacobianEntries(
+            store_matrix("mass", jacobians.mass, self.names),
+            store_matrix("phi", jacobians.phi_q, self.names),
+            store_matrix("by_q", jacobians.by_q, self.names),
+            store_matrix("by_v", jacobians.by_v, self.names),
+            store_matrix("by_z", jacobians.by_z, self.names, states),
+            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in jacobians.by_t.items()},
+            store_matrix("power_q", jacobians.power_q, works),
+            store_matrix("power_v", jacobians.power_v, works),
+            store_matrix("power_z", jacobians.power_z, works, states),
+            store_matrix("power", jacobians.power_row, works),
+            {w: store_value(x, f"power_t_{w}") for w, x in jacobians.power_t.items()},
         )
 
     def _make_entry_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
@@ -159,7 +161,7 @@ class Newton:
         An entry is sign times element `index` of `lin->value`. Rows are nodes (coordinates, equations, frictions,
         internal states) or works; columns are those of y = (q, v, works, internal states).
         """
-        parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
+        jacobians, n, z = self.jacobians, self.n, 2 * self.n + N_WORK
 
         def make_table(part: Mapping[Pair, sp.Expr], first_column: int = 0) -> list[tuple[int, int, int, int]]:
             """Return (row, column, index, sign) of the entries of one part."""
@@ -169,12 +171,14 @@ class Newton:
             ]
 
         return {
-            "phi_q": make_table(parts.phi_q),
-            "residual": make_table(parts.by_q) + make_table(parts.by_v, n) + make_table(parts.by_z, z),
-            "residual_t": make_table({(node, 0): value for node, value in parts.by_t.items()}),
-            "power": make_table(parts.power_q) + make_table(parts.power_v, n) + make_table(parts.power_z, z),
-            "power_row": make_table(parts.power_row),
-            "power_t": make_table({(w, 0): value for w, value in parts.power_t.items()}),
+            "phi_q": make_table(jacobians.phi_q),
+            "residual": make_table(jacobians.by_q) + make_table(jacobians.by_v, n) + make_table(jacobians.by_z, z),
+            "residual_t": make_table({(node, 0): value for node, value in jacobians.by_t.items()}),
+            "power": make_table(jacobians.power_q)
+            + make_table(jacobians.power_v, n)
+            + make_table(jacobians.power_z, z),
+            "power_row": make_table(jacobians.power_row),
+            "power_t": make_table({(w, 0): value for w, value in jacobians.power_t.items()}),
         }
 
     def _make_matrix_entries(self, builder: KernelBuilder) -> dict[Pair, sp.Expr]:
@@ -184,21 +188,21 @@ class Newton:
         motion or constraint equations is M or Φ_q plus s (V + η Q), with the factor s of `_find_eta_factor`. Numbers
         and symbols stay, other entries become locals.
         """
-        parts = self.parts
-        self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        jacobians = self.jacobians
+        self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**jacobians.by_v, **jacobians.by_q}})
         first = self.first_state
         builder.begin_section("matrix")
-        entries: dict[Pair, sp.Expr] = dict(parts.mass)
-        for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
+        entries: dict[Pair, sp.Expr] = dict(jacobians.mass)
+        for node, k in sorted({*jacobians.by_v, *jacobians.by_q, *jacobians.phi_q}):
             index = node, k
-            coefficient = parts.by_v.get(index, ZERO) + ETA * parts.by_q.get(index, ZERO)
-            value = parts.mass.get(index, ZERO) if node < self.n else parts.phi_q.get(index, ZERO)
+            coefficient = jacobians.by_v.get(index, ZERO) + ETA * jacobians.by_q.get(index, ZERO)
+            value = jacobians.mass.get(index, ZERO) if node < self.n else jacobians.phi_q.get(index, ZERO)
             entries[index] = self._name_entry(builder, index, value + self._find_eta_factor(node) * coefficient)
         entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
-        for (node, state), derivative in parts.by_z.items():
+        for (node, state), derivative in jacobians.by_z.items():
             index = node, first + state
             entries[index] = self._name_entry(builder, index, sp.Integer(node == index[1]) + ETA * derivative)
-        return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
+        return entries | {(k, node): value for (node, k), value in jacobians.phi_q.items()}
 
     def _name_entry(self, builder: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
         """Return an entry of Newton's matrix as a new local; a number or ± a symbol is returned unchanged.
@@ -314,7 +318,7 @@ class Newton:
         r and u are vectors (q, v, works, internal states); s is a number. It calls the function of
         `_make_substitute_kernel`.
         """
-        n, parts = self.n, self.parts
+        n, jacobians = self.n, self.jacobians
         states = range(self.first_state, self.nodes)
         builder = self._begin_function(
             "newton_solve",
@@ -328,19 +332,19 @@ class Newton:
         builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
-        coordinates = sorted({k for node, k in parts.phi_q if node < n + self.m})
+        coordinates = sorted({k for node, k in jacobians.phi_q if node < n + self.m})
         shifted = {
             k: builder.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k])
             for k in coordinates
         }
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
-        for (i, k), value in parts.mass.items():
+        for (i, k), value in jacobians.mass.items():
             b[i].append(value * r_v[k])
-        for (i, k), value in parts.phi_q.items():
+        for (i, k), value in jacobians.phi_q.items():
             b[i].append(value * (shifted[k] if i < n + self.m else r_v[k]))
-        for (i, k), value in parts.by_q.items():
+        for (i, k), value in jacobians.by_q.items():
             b[i].append(-ETA * value * r_q[k])
-        for i, value in parts.by_t.items():
+        for i, value in jacobians.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
             b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
@@ -373,12 +377,12 @@ class Newton:
 
         x is the result of the substitution: u_v by coordinate, followed by η μ by equation.
         """
-        parts, n = self.parts, self.n
-        terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
-        for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
+        jacobians, n = self.jacobians, self.n
+        terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]
+        for part, first in ((jacobians.power_q, 0), (jacobians.power_v, n), (jacobians.power_z, 2 * n + N_WORK)):
             terms += [value * PlaceSymbol(Place("u")[first + k]) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
-        for (i, node), value in parts.power_row.items():
+        for (i, node), value in jacobians.power_row.items():
             start_rate = ETA * PlaceSymbol(Place("r")[n + node]) if node < n else ZERO
             changes += [value * (PlaceSymbol(Place("x")[node]) - start_rate)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)

@@ -155,8 +155,8 @@ class ParameterTable(Freezable):
     def get_or_add_array(self, base_name: str, quantities: Sequence[Quantity]) -> str:
         """Return the name of an array in Parameters that holds the values of several quantities, in their order.
 
-        The array is named after `base_name`. If the first quantity is the first one of an existing array, that array
-        is used.
+        The array is named after `base_name`. If the first quantity is the first one of an existing array, that array is
+        used. The symbols of the elements are registered in the symbol table as parameters of shared functions.
         """
         name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
         if not name:

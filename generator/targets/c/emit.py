@@ -142,7 +142,7 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
         ABSOLUTE: {
             "parameters.c": lambda: _print_parameters_file(program),
             "constraints.c": lambda: _print_constraints_file(program),
-            "dynamics.c": lambda: _print_kernels(*program.right_hand_side),
+            "dynamics.c": lambda: _print_kernels(*program.right_hand_side_kernels),
         }
     }
     if tree:
@@ -271,7 +271,12 @@ def _list_kernels(program: Program) -> list[Kernel]:
     The kernels of methods are those of Newton's method for implicit integrators, or of the kinematic analysis.
     """
     tree, method_kernels = program.tree, program.methods or program.kinematics
-    kernels = [*program.right_hand_side, *program.closed_linkage, *(tree.all_kernels if tree else ()), program.prepare]
+    kernels = [
+        *program.right_hand_side_kernels,
+        *program.closed_linkage,
+        *(tree.all_kernels if tree else ()),
+        program.prepare,
+    ]
     return [*kernels, *(method_kernels.kernels if method_kernels else ()), *program.laws]
 
 

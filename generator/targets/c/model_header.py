@@ -105,7 +105,7 @@ def _list_linkage_sizes(program: Program) -> Sizes:
         "N_FRICTIONS": (len(model.frictions), "friction elements, which may stick"),
         "N_SWITCHES": (switches, "switching functions of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are events"),
-        "N_SERIES": (len(outputs.find_element_series(model)), "results of force elements"),
+        "N_SERIES": (len(outputs.list_force_element_series(model)), "results of force elements"),
     }
 
 
@@ -178,7 +178,7 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
         ),
         "N_TERMS": (program.time_terms.count, "terms that depend on time only, whose changes a step may miss"),
         "N_TRANSIENTS": (
-            program.time_terms.pulses,
+            program.time_terms.n_transients,
             "the first of these: transients that a step of any motion may miss",
         ),
     }

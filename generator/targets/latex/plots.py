@@ -58,8 +58,8 @@ def plot_law_of_joints(functions: Functions, joint_labels: Sequence[str], role: 
     role: "normal", "friction" or "film". [] is returned for "mixed", rigid contacts and laws with internal states, and
     if the law cannot be evaluated to finite values for arrays.
     """
-    pin_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
-    joint = functions.program.joints[pin_indices[joint_labels[0]]]
+    joint_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
+    joint = functions.program.joints[joint_indices[joint_labels[0]]]
     call = joint.laws.get(role)
     if call is None or law.states or law.rigid:
         return []

@@ -430,7 +430,7 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
         body += indent_lines(
             [
                 *_print_dry_contact(joint_with_play),
-                *print_statements(joint_with_play.share),
+                *print_statements(joint_with_play.blend),
                 "if share < 1:",
                 f"    film = {', '.join(_FILM)}",
                 "    F = tuple(b + share*(a - b) for a, b in zip(F, film))",
