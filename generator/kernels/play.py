@@ -25,7 +25,7 @@ from gudgeon.generator.solvers.contact_derivatives import (
     make_film_derivative_kernel,
     make_fraction_derivative_kernel,
     read_parameters_from_struct,
-    replace_stored_speed,
+    replace_speed_ratio,
 )
 from gudgeon.generator.symbols.storage import Place, Result
 
@@ -198,7 +198,7 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     laws, statements_by_part = make_law_calls(model, clearance, shared_functions), {}
     if clearance.normal is not None:
         statements_by_part["before_dry"] = make_contact_statements(
-            [replace_stored_speed(step) for step in contact.make_lever_arm_equations(clearance)]
+            [replace_speed_ratio(step) for step in contact.make_lever_arm_equations(clearance)]
         )
         statements_by_part["contour_normal_force"] = make_contact_statements(
             contact.make_contour_normal_force(clearance)

@@ -263,7 +263,10 @@ def _make_system(
     velocity_terms, weights = inertia.derive_velocity_terms(), inertia.derive_weights()
 
     def compute_applied_force(name: str) -> sp.Expr:
-        """Return the weight on a coordinate minus its velocity terms and minus M times prescribed accelerations."""
+        """Return the generalized force on a coordinate of gravity, of velocity terms and of prescribed accelerations.
+
+        The velocity terms (inertia forces) and M times the prescribed accelerations are subtracted from the weight.
+        """
         prescribed_forces = sum(
             (inertia.mass.get((name, k), ZERO) * coordinate.acceleration for k, coordinate in prescribed.items()), ZERO
         )

@@ -225,9 +225,10 @@ class OperationEstimate:
         return self._negligible_inertia[key]
 
     def find_closing_pairs(self, tree_edges: tuple[TreeEdge, ...]) -> list[Joint]:
-        """Return the pairs of bodies, as joints, that connect multiple joints in addition to the pairs of the tree.
+        """Return the pairs of bodies, as joints, that close the points that several bodies share (multiple joints).
 
-        Pairs whose equations contain few coordinates are preferred (`SharedPoint.find_connecting_pairs`).
+        They connect the bodies of such a point that the pairs of the tree do not connect. Pairs whose equations contain
+        few coordinates are preferred (`SharedPoint.find_connecting_pairs`).
         """
         paths: dict[str, list[TreeEdge]] = {}
         for tree_edge in tree_edges:

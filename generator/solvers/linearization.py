@@ -185,13 +185,13 @@ class Linearization:
         return clearance.list_point_loads(values[:2], moments)
 
     def _add_constraint_equations(self) -> None:
-        """Add the derivatives of the constraint equations to the parts: Φ_q, V, Q and R2_t.
+        """Add the derivatives of the constraint equations to `jacobians`: Φ_q, V, Q and R2_t.
 
         R2 = Φ_q a − γ + 2α Φ̇ + β² Φ at constant accelerations a; V = R2_v − 2α Φ_q and Q = R2_q − β² Φ_q.
         """
         if self.system.rows:
             self.builder.begin_section("constraints")
-        two_alpha, beta_squared = self._derive_gains()
+        two_alpha, beta_squared = self._derive_baumgarte_gains()
         for index, row in enumerate(self.system.rows):
             node = self.n + index
             self._add_jacobian(node, row.phi_q)
@@ -210,21 +210,21 @@ class Linearization:
             ) != 0:
                 self.jacobians.by_t[node] = value
 
-    def _derive_gains(self) -> tuple[sp.Expr, sp.Expr]:
+    def _derive_baumgarte_gains(self) -> tuple[sp.Expr, sp.Expr]:
         """Return (2α, β²) of Baumgarte's terms 2α Φ̇ + β² Φ as derived parameters, in 1/s and 1/s²."""
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive_parameter
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
     def _add_jacobian(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
-        """Add the entries of an equation's Jacobian, by coordinate, to the part `phi_q`.
+        """Add the entries of an equation's Jacobian, by coordinate, to `jacobians.phi_q`.
 
         `node`: number of the equation.
         """
         self.jacobians.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
 
     def _add_derivatives(self, node: int, value: sp.Expr, sign: int, velocities_only: bool = False) -> None:
-        """Add `sign` times the derivatives of `value`, a term of a residual, by v, q, z and t to the parts.
+        """Add `sign` times the derivatives of `value`, a term of a residual, by v, q, z and t to `jacobians`.
 
         z are the internal states of laws. With `velocities_only` only those by v are added. `node`: number of the
         equation.
@@ -249,7 +249,7 @@ class Linearization:
         return {index_of[symbol]: value for symbol, value in tangent.items() if symbol in index_of}
 
     def _add_friction_equations(self, residual: list[sp.Expr]) -> None:
-        """Add the equations of stick, the forces of slip and their power to the parts; stick or slip is held constant.
+        """Add the equations of stick, the forces of slip and their power to `jacobians`; stick or slip is constant.
 
         `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: at stick the current one, held
         constant, at slip −sign(v) · kinetic force. A symbol for each element, 1 at stick and 0 at slip, is appended to
@@ -298,7 +298,7 @@ class Linearization:
                 )
 
     def _add_motion_equations(self, residual: list[sp.Expr]) -> None:
-        """Add M and the derivatives by q, v, z, t of R1 = M a + Φ_qᵀ λ − g (equations of motion) to the parts.
+        """Add M and the derivatives by q, v, z, t of R1 = M a + Φ_qᵀ λ − g (equations of motion) to `jacobians`.
 
         z are the internal states of laws. `residual`, by coordinate, holds −g and is completed in place.
         """
@@ -314,7 +314,7 @@ class Linearization:
             self._add_derivatives(k, value, 1)
 
     def _add_powers(self) -> None:
-        """Add the derivatives of the powers by q, v, internal states and t to the parts, and append their statements.
+        """Add the derivatives of the powers by q, v, internal states and t to `jacobians`, and append their statements.
 
         The power of the drives also gets those by multipliers and accelerations. Nothing is added if all powers are 0.
         """

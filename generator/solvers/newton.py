@@ -1,7 +1,7 @@
 """Functions for implicit methods: Newton's matrix of the equations of motion, and solutions of linear systems with it.
 
 J is the Jacobian of y' = f(t, y) with y = (q, v, works, internal states z) and η = h γ of the method. Eliminating
-u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
+u_q = η (r_q + u_v) leaves, with the Jacobians of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
     [M + η R1_v + η² R1_q   Φ_qᵀ] [u_v ]   [ η (M r_v − η R1_q r_q − s R1_t)                         ]
     [Φ_q + η/κ (V + η Q)    0   ] [η μ ] = [ η/κ (Φ_q (r_v − η β² r_q) − η Q r_q − s R2_t)           ]
     u_w = η (r_w + P_q u_q + P_v u_v + P_z u_z + P_λ μ + s P_t),   μ the multipliers' own change.
@@ -11,8 +11,7 @@ At η = 0 the matrix is the KKT matrix, with 1 in the rows of z. It is factorize
 chosen on its symmetric pattern, internal states first, a constraint equation only after the coordinates in it. A
 coordinate that an equation gives by others (dependent_coordinates.py) is the unknown of that equation, and its
 multiplier that of the coordinate's equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving
-Ordinary Differential Equations II, Springer (1996), IV.8 and VII.
-L U is printed as statements, pivot by pivot.
+Ordinary Differential Equations II, Springer (1996), IV.8 and VII. L U is printed as statements.
 """
 
 from __future__ import annotations
@@ -99,7 +98,7 @@ class Newton:
         linearization = Linearization(self.system, builder)
         jacobians = linearization.derive_jacobian_entries()
         builder.begin_section("results")
-        self.jacobians = self._store_jacobian_entries(builder, jacobians, linearization.tangents)
+        self.jacobians = self._store_entries(builder, jacobians, linearization.tangents)
         self.stick_flags = [
             self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
         ]
@@ -115,9 +114,7 @@ class Newton:
         )
         return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
-    def _store_jacobian_entries(
-        self, builder: KernelBuilder, jacobians: JacobianEntries, tangents: Tangents
-    ) -> JacobianEntries:
+    def _store_entries(self, builder: KernelBuilder, entries: JacobianEntries, tangents: Tangents) -> JacobianEntries:
         """Return the entries of the Jacobians with each value stored in the array `lin->value`, once up to its sign.
 
         Values of the result are the symbols that read the array. `tangents` stores shared denominators and powers.
@@ -142,17 +139,17 @@ class Newton:
         states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
         return JacobianEntries(
-            store_matrix("mass", jacobians.mass, self.names),
-            store_matrix("phi", jacobians.phi_q, self.names),
-            store_matrix("by_q", jacobians.by_q, self.names),
-            store_matrix("by_v", jacobians.by_v, self.names),
-            store_matrix("by_z", jacobians.by_z, self.names, states),
-            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in jacobians.by_t.items()},
-            store_matrix("power_q", jacobians.power_q, works),
-            store_matrix("power_v", jacobians.power_v, works),
-            store_matrix("power_z", jacobians.power_z, works, states),
-            store_matrix("power", jacobians.power_row, works),
-            {w: store_value(x, f"power_t_{w}") for w, x in jacobians.power_t.items()},
+            store_matrix("mass", entries.mass, self.names),
+            store_matrix("phi", entries.phi_q, self.names),
+            store_matrix("by_q", entries.by_q, self.names),
+            store_matrix("by_v", entries.by_v, self.names),
+            store_matrix("by_z", entries.by_z, self.names, states),
+            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in entries.by_t.items()},
+            store_matrix("power_q", entries.power_q, works),
+            store_matrix("power_v", entries.power_v, works),
+            store_matrix("power_z", entries.power_z, works, states),
+            store_matrix("power", entries.power_row, works),
+            {w: store_value(x, f"power_t_{w}") for w, x in entries.power_t.items()},
         )
 
     def _make_entry_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
@@ -161,7 +158,7 @@ class Newton:
         An entry is sign times element `index` of `lin->value`. Rows are nodes (coordinates, equations, frictions,
         internal states) or works; columns are those of y = (q, v, works, internal states).
         """
-        jacobians, n, z = self.jacobians, self.n, 2 * self.n + N_WORK
+        entries, n, z = self.jacobians, self.n, 2 * self.n + N_WORK
 
         def make_table(part: Mapping[Pair, sp.Expr], first_column: int = 0) -> list[tuple[int, int, int, int]]:
             """Return (row, column, index, sign) of the entries of one part."""
@@ -171,14 +168,12 @@ class Newton:
             ]
 
         return {
-            "phi_q": make_table(jacobians.phi_q),
-            "residual": make_table(jacobians.by_q) + make_table(jacobians.by_v, n) + make_table(jacobians.by_z, z),
-            "residual_t": make_table({(node, 0): value for node, value in jacobians.by_t.items()}),
-            "power": make_table(jacobians.power_q)
-            + make_table(jacobians.power_v, n)
-            + make_table(jacobians.power_z, z),
-            "power_row": make_table(jacobians.power_row),
-            "power_t": make_table({(w, 0): value for w, value in jacobians.power_t.items()}),
+            "phi_q": make_table(entries.phi_q),
+            "residual": make_table(entries.by_q) + make_table(entries.by_v, n) + make_table(entries.by_z, z),
+            "residual_t": make_table({(node, 0): value for node, value in entries.by_t.items()}),
+            "power": make_table(entries.power_q) + make_table(entries.power_v, n) + make_table(entries.power_z, z),
+            "power_row": make_table(entries.power_row),
+            "power_t": make_table({(w, 0): value for w, value in entries.power_t.items()}),
         }
 
     def _make_matrix_entries(self, builder: KernelBuilder) -> dict[Pair, sp.Expr]:
@@ -189,7 +184,7 @@ class Newton:
         and symbols stay, other entries become locals.
         """
         jacobians = self.jacobians
-        self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**jacobians.by_v, **jacobians.by_q}})
+        self._append_eta_factors(builder, {self._find_eta_factor(i) for i, _ in {**jacobians.by_v, **jacobians.by_q}})
         first = self.first_state
         builder.begin_section("matrix")
         entries: dict[Pair, sp.Expr] = dict(jacobians.mass)
@@ -221,8 +216,8 @@ class Newton:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
-    def _append_scales(self, builder: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
-        """Append the factors η/κ of constraints and of sticks to the function, those that are in `scales`.
+    def _append_eta_factors(self, builder: KernelBuilder, factors: Collection[sp.Symbol]) -> None:
+        """Append the factors η/κ of constraints and of sticks to the function, those that are in `factors`.
 
         η = h γ of the method. κ = 1 + 2αη + β²η² for constraints (Baumgarte's α and β), 1 + 2αη for sticks, with α of
         `derive_stick_baumgarte_gain`. The section "eta/kappa" begins also without a factor.
@@ -231,9 +226,9 @@ class Newton:
         derive = self.model.parameter_table.derive_parameter
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         builder.begin_section("eta/kappa")
-        if ETA_ROW in scales:
+        if ETA_ROW in factors:
             builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
-        if ETA_STICK in scales:
+        if ETA_STICK in factors:
             builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_baumgarte_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
@@ -327,7 +322,7 @@ class Newton:
                 f"{', internal states' if states else ''}.",
             ],
         )
-        self._append_scales(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
+        self._append_eta_factors(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
         builder.begin_section("right-hand side")
         builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
@@ -375,7 +370,8 @@ class Newton:
     def _compute_work_change(self, w: int) -> sp.Expr:
         """Return u_w, the component of the solution u for work w, as an expression in r, the other u, and x.
 
-        x is the result of the substitution: u_v by coordinate, followed by η μ by equation.
+        u_w = η (r_w + s P_t + P_q u_q + P_v u_v + P_z u_z) + P_a (x_v − η r_v) + P_λ x_λ. x is the result of the
+        substitution: u_v by coordinate, followed by η μ by equation.
         """
         jacobians, n = self.jacobians, self.n
         terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]

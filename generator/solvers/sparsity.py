@@ -138,8 +138,8 @@ def find_elimination_below(
 def _compute_min_products(pattern: Pattern) -> int:
     """Return a lower bound of the products of any elimination of a pattern, from the least degree d of its nodes.
 
-    The first pivot couples its d or more neighbours with each other, so that the elimination of these has at least
-    d − 1, d − 2, …, 0 entries in its columns.
+    It is Σ k (k + 3)/2 for k = 0 … d: the first pivot couples its d or more neighbours with each other, so that the
+    elimination of these has at least d − 1, d − 2, …, 0 entries in its columns.
     """
     degree = min(map(len, pattern), default=0)
     return sum(k * (k + 3) // 2 for k in range(degree + 1))
@@ -326,7 +326,8 @@ def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
     def assign_unknown(row: int, visited_unknowns: set[int]) -> bool:
         """Return whether equation `row` gets an unknown, after other equations have been moved if necessary.
 
-        `visited_unknowns` collects the unknowns that have been tried.
+        This searches an augmenting path of a bipartite matching. `visited_unknowns` collects the unknowns that have
+        been tried.
         """
         for column in sorted(pattern[row]):
             if column not in visited_unknowns:

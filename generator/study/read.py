@@ -83,7 +83,7 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
 
 
 def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) -> Iterator[tuple[str, Text]]:
-    """Yield (kind, name) for each name of the dataset that is not a parameter: zips, choices, measures, series."""
+    """Yield (kind, name) for each name of the dataset but parameters: groups of `zip`, choices, measures, series."""
     yield from (("parameters that vary together", key) for key in zip_keys)
     yield from (("a choice", Text.make_text(choice.name, choice.where)) for choice in study.choices)
     if isinstance(root.get("measures"), Map):
