@@ -176,7 +176,9 @@ class LinePrinter(ValuePrinter):
         ]
 
     def _print_call(self, call: Call) -> str:
-        """Return the call of a function in C without a semicolon: its arguments, then the places of its results."""
+        """Return the call of a function in C without a semicolon: its arguments, then the storage locations of its
+        results.
+        """
         arguments = [
             self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.inputs
         ]

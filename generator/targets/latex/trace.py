@@ -302,7 +302,10 @@ class _TokenCollector:
         the parameters from which they are computed.
         """
         kernel = self.program.prepare
-        places = {s.name: self.model.parameter_table.find_place(s) for s in self.model.parameter_table.list_symbols()}
+        places = {
+            s.name: self.model.parameter_table.find_storage_location(s)
+            for s in self.model.parameter_table.list_symbols()
+        }
         entry_names = {entry.symbol.name for entry in self.model.parameter_table.entries.values()}
         marks_by_name = {
             name: self.tokens_by_parameter[place] | ({f"number-{name}"} if name in entry_names else set())
@@ -319,7 +322,7 @@ class _TokenCollector:
         """Return {address: highlighting tokens} of all run-time parameters; called after `collect_tokens`."""
         table = self.model.parameter_table
         return {
-            entry.address: frozenset(self.tokens_by_parameter[table.find_place(entry.symbol)])
+            entry.address: frozenset(self.tokens_by_parameter[table.find_storage_location(entry.symbol)])
             for entry in table.entries.values()
         }
 
