@@ -40,10 +40,10 @@ class ParameterEntry:
 
 @dataclass(frozen=True)
 class ParameterRole:
-    """The role of a derived parameter in a joint or element: `axis` of the unit vector `what`, or `what` itself."""
+    """The role of a derived parameter in a joint or element: `axis` of the unit vector `quantity`, or it itself."""
 
     owner: str
-    what: str
+    quantity: str
     axis: str = ""
 
 

@@ -83,7 +83,7 @@ class JavaScriptPrinter(CPrinter):
         return JavaScriptPrinter(readable_lines, self.members_read)
 
     def print_place(self, place: Place) -> str:
-        """Return the path of a place in JavaScript; the member of a parameter is added to `members_read`."""
+        """Return the path of a storage location in JavaScript; the member of a parameter is added to `members_read`."""
         if place.is_parameter:
             self.members_read.add(place.member)
         return str(place)

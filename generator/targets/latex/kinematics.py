@@ -29,7 +29,7 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.letters import Formula
-from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
+from gudgeon.generator.targets.latex.notation import Notation, list_intermediate_symbols
 from gudgeon.generator.targets.latex.pictures import draw_jacobian_pattern
 from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, name_component
 
@@ -121,7 +121,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
     explain where(…) and the unit step H if they occur.
     """
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
-    others = laws | set(list_temporaries(model))
+    others = laws | set(list_intermediate_symbols(model))
     equations = [
         make_equation(symbol, notation.expand_symbols(definition), notation)
         for symbol, definition in model.symbols.definitions.items()

@@ -28,7 +28,7 @@ from gudgeon.generator.targets.latex.letters import (
     assign_unique_names,
     make_name_from_latex,
     make_symbol_name,
-    make_word_name,
+    make_user_symbol_name,
 )
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.play import describe_internal_states, format_option
@@ -325,7 +325,7 @@ def _propose_symbol_names(
         base, _, index = name.partition("_")
         yield _make_probe_symbol(name), make_symbol_name(base, index) if index else make_symbol_name(base)
     for name in constants:
-        yield _make_probe_symbol(name), LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
+        yield _make_probe_symbol(name), LAW_SYMBOL_NAMES.get(name) or make_user_symbol_name(name)
     for name in equations_by_name:
         yield sp.Symbol(name, real=True), name_law_variable(law, name)
 

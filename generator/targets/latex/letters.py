@@ -94,7 +94,7 @@ def get_greek_command(word: str) -> str:
     return _VARIANT.get(word, f"\\{word}")
 
 
-def make_word_name(name: str) -> Formula:
+def make_user_symbol_name(name: str) -> Formula:
     """Return the name of a user-defined identifier: omega4 is ω with subscript 4, v_max is v with subscript max.
 
     Only a letter or the name of a Greek letter gets a subscript; other identifiers, such as "speed", stay words.

@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
 from gudgeon.generator.symbols.symbols import Symbols, strip_identifier
-from gudgeon.generator.targets.latex.letters import Formula, add_primes, make_symbol_name, make_word_name
+from gudgeon.generator.targets.latex.letters import Formula, add_primes, make_symbol_name, make_user_symbol_name
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.latex.theory import collect_theory_symbols
 
@@ -175,8 +175,8 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Formula]]:
         yield entry.symbol, name_parameter(entry.address)
     for symbol in model.parameter_table.derived:
         yield symbol, _name_derived_parameter(model, symbol)
-    for symbol in list_temporaries(model):
-        yield symbol, _name_temporary(model.symbols.info[symbol].meaning)
+    for symbol in list_intermediate_symbols(model):
+        yield symbol, _name_intermediate_quantity(model.symbols.info[symbol].meaning)
     for symbol in list_drive_distances(model):
         yield symbol, _name_drive_distance(strip_identifier(symbol))
     for symbol in list_rotated_components(model):
@@ -197,7 +197,7 @@ def name_parameter(address: str) -> Formula:
     """
     match address.split("."):
         case ["parameters", name]:
-            return make_word_name(name)
+            return make_user_symbol_name(name)
         case ["baumgarte", gain]:
             return make_symbol_name(gain)
         case ["gravity", axis]:
@@ -255,14 +255,14 @@ def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Formula:
     if owner_info is None:
         return make_symbol_name(strip_identifier(symbol))
     return make_symbol_name(
-        get_field_letter(owner_info.what),
+        get_field_letter(owner_info.quantity),
         *([owner_info.axis] if owner_info.axis else []),
         owner_info.owner,
         hat=bool(owner_info.axis),
     )
 
 
-def _name_temporary(meaning: str) -> Formula:
+def _name_intermediate_quantity(meaning: str) -> Formula:
     """Return the name of a temporary of a force element from its meaning, "span_x of coil": Δ_x,coil."""
     quantity, _, owner = meaning.partition(" of ")
     base, _, axis = quantity.rpartition("_")
@@ -290,7 +290,7 @@ def list_drive_distances(model: Model) -> list[sp.Symbol]:
     return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
 
 
-def list_temporaries(model: Model) -> list[sp.Symbol]:
+def list_intermediate_symbols(model: Model) -> list[sp.Symbol]:
     """Return the symbols of intermediate quantities of force elements, such as a spring's length and force.
 
     They are all definitions except parameters, angles and distances of drives, and rotated components.
@@ -333,4 +333,4 @@ def _list_shown_symbols(model: Model) -> Iterator[sp.Symbol]:
     for symbol, value in model.parameter_table.derived.items():
         if sp.count_ops(value) > MAX_CONSTANT_OPERATIONS and symbol not in model.parameter_table.internal_parameters:
             yield symbol
-    yield from list_temporaries(model)
+    yield from list_intermediate_symbols(model)

@@ -65,7 +65,7 @@ class HighlightIndex(Functions):
     tokens_by_address: Mapping[str, Marks]
 
 
-def make_functions(model: Model) -> Functions:
+def make_scene_functions(model: Model) -> Functions:
     """Return the functions of a scene for a document without C: kernels, description, names of the C files.
 
     The C is not printed.

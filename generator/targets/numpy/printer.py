@@ -45,7 +45,10 @@ _BRANCH_ARGUMENTS = ("branch", "g", "corner")
 
 
 def print_name(key: Key) -> str:
-    """Return the Python expression of a local or place; the field `lambda` becomes `rhs.lambda_[3]`."""
+    """Return the Python expression of a local or storage location.
+
+    A name that is a Python keyword gets an underscore: the field `lambda` becomes `rhs.lambda_[3]`.
+    """
     if isinstance(key, Place):
         members = (f"[{step}]" if isinstance(step, int) else f".{print_name(step)}" for step in key.path)
         return print_name(key.base) + "".join(members)
