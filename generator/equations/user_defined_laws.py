@@ -136,12 +136,12 @@ _SAME_UNIT_FUNCTIONS = find_classes(lambda f: f.units is Units.SAME)
 _RATIO_FUNCTIONS = find_classes(lambda f: f.units is Units.RATIO)
 
 
-class _Flexible:
+class _FlexibleDimension:
     """A dimension that is not fixed: of a plain number, or of a value that may have any unit in the file."""
 
 
-_PLAIN_NUMBER, _ANY_UNIT = _Flexible(), _Flexible()
-_DimensionOrFlexible = Dimension | _Flexible
+_PLAIN_NUMBER, _ANY_UNIT = _FlexibleDimension(), _FlexibleDimension()
+_DimensionOrFlexible = Dimension | _FlexibleDimension
 
 
 def check_units(law: Law, law_use: LawUse) -> None:

@@ -220,7 +220,7 @@ class SolveDependentRows(Line):
 
 
 @dataclass(frozen=True)
-class Largest(Line):
+class MaxMagnitude(Line):
     """The largest magnitude of some values, ignoring NaN; it is not a switching point of the motion."""
 
     target: str
@@ -238,8 +238,8 @@ class Largest(Line):
 
 
 @dataclass(frozen=True)
-class LargestRow(Line):
-    """The number, from 1, of the value with the largest magnitude, stored in `row`."""
+class MaxMagnitudeRow(Line):
+    """The number, from 1, of the value with the largest magnitude, stored in the local `row`."""
 
     values: tuple[sp.Basic, ...]
     writes: ClassVar[Names] = frozenset(["row"])

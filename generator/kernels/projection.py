@@ -10,7 +10,7 @@ from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, make_input_argument, make_output_argument
-from gudgeon.generator.ir.statements import Largest, Return
+from gudgeon.generator.ir.statements import MaxMagnitude, Return
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_VANISHING
 from gudgeon.generator.symbols.derivatives import find_symbols
@@ -141,7 +141,7 @@ def make_constraint_correction_kernel(system: System, name: str = "closing_step"
     for k, _ in enumerate(system.q):
         builder.append_store(Place("dq")[k], x[k])
         builder.append_store(Place("dv")[k], velocity_step[k])
-    builder.append_line(Largest("worst", tuple(phi.values())))
+    builder.append_line(MaxMagnitude("worst", tuple(phi.values())))
     builder.append_line(Return())
     outs = (make_output_argument(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held

@@ -255,8 +255,8 @@ class Newton:
             tuple(map(frozenset, pattern)),
             self.n,
             self.n + self.m,
-            first=(*states, *self.first.order),
-            partner=self.first.partner,
+            leading_nodes=(*states, *self.first.order),
+            partner_by_node=self.first.partner,
         )
         builder.begin_section("L U")
         factors = Factors(self, builder, entries)

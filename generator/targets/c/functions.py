@@ -21,10 +21,10 @@ from gudgeon.generator.ir.statements import (
     DeclareParameters,
     Guard,
     Jump,
-    Largest,
-    LargestRow,
     Line,
     MarkUnused,
+    MaxMagnitude,
+    MaxMagnitudeRow,
     Return,
     ReturnIfFailed,
     Sines,
@@ -141,7 +141,7 @@ class LinePrinter(ValuePrinter):
                 return self._print_sines(line)
             case SolveDependentRows():
                 return self._print_redundant_equation_solution(line)
-            case Largest():
+            case MaxMagnitude():
                 name = f"*{line.target}"
                 before = ["0.0", *[name] * len(line.values)]
                 largest = [
@@ -149,7 +149,7 @@ class LinePrinter(ValuePrinter):
                     for old, x in zip(before, line.values, strict=False)
                 ]
                 return largest or [f"{name} = 0.0;"]
-            case LargestRow():
+            case MaxMagnitudeRow():
                 return self._print_largest_row(line)
             case StoreRow():
                 values = ", ".join(map(self.print_expression, line.values))
@@ -250,7 +250,7 @@ class LinePrinter(ValuePrinter):
             "powers:",
         ]
 
-    def _print_largest_row(self, largest_row: LargestRow) -> list[str]:
+    def _print_largest_row(self, largest_row: MaxMagnitudeRow) -> list[str]:
         """Return the code that sets *row to the number (from 1) of the value with the largest magnitude."""
         first, *others = map(self.print_expression, largest_row.values)
         lines = ["*row = 1;", *([f"double max_magnitude = fabs({first});"] if others else [])]

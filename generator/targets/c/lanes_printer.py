@@ -24,8 +24,8 @@ from gudgeon.generator.ir.statements import (
     DeclareParameters,
     Guard,
     Jump,
-    Largest,
     Line,
+    MaxMagnitude,
     Return,
     Sines,
     SolveDependentRows,
@@ -188,7 +188,7 @@ class LaneLines(functions.LinePrinter):
                     "rhs": ["Lanes *const g = reported_branches(rhs);"],
                 }
                 return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]
-            case Largest():
+            case MaxMagnitude():
                 name = f"*{line.target}"
                 before = ["broadcast(0.0)", *[name] * len(line.values)]
                 largest = [

@@ -19,8 +19,8 @@ from gudgeon.generator.ir.statements import (
     DeclareBranches,
     Guard,
     Jump,
-    LargestRow,
     Line,
+    MaxMagnitudeRow,
     Return,
     Sines,
     SolveDependentRows,
@@ -194,7 +194,7 @@ class LinePrinter:
         a joint's function stores its force in ground axes. Raises ValueError for a line without a counterpart.
         """
         if isinstance(
-            line, (DeclareBranches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)
+            line, (DeclareBranches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, MaxMagnitudeRow)
         ):
             return []
         if isinstance(line, Sines):

@@ -23,8 +23,8 @@ from gudgeon.generator.ir.statements import (
     DeclareBranches,
     Guard,
     Jump,
-    Largest,
     Line,
+    MaxMagnitude,
     Return,
     SolveDependentRows,
     Statement,
@@ -277,7 +277,7 @@ class LinePrinter:
             case Guard(test=Test() as test):
                 condition = f"{self.print_test(line.condition)} and " if line.condition else ""
                 return [*break_code(f"if {condition}not ({self.print_test(test)}):"), f"    return {line.number}"]
-            case Largest():
+            case MaxMagnitude():
                 inner = ", ".join(f"np.abs({self.print_expression(x)})" for x in line.values)
                 value = f"max({inner}, 0.0)" if line.values else "0.0"
                 return print_assignment(f"{line.target}[0]", value, is_call=True)
