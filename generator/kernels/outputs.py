@@ -9,7 +9,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, make_input_argument, make_output_argument
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import Joint
 from gudgeon.generator.symbols.storage import Place
 
@@ -81,11 +81,11 @@ def _compute_reaction(
     type.
     """
     first, second = model.geometry.find_point(joint.first), model.geometry.find_point(joint.second)
-    kind = joint_types()[joint.kind]
+    kind = find_joint_types()[joint.kind]
     point = first if kind.reaction_at == "first" else second
     sign, bodies = 1, [second.body]
     if second.body is None:
-        other_bodies = [joint.options[name] for name in kind.third_bodies]  # a gear's carrier
+        other_bodies = [joint.options[name] for name in kind.third_body_fields]  # a gear's carrier
         sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in other_bodies)]
     wrench = [ZERO, ZERO, ZERO]
     for body in bodies:

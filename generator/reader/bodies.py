@@ -8,7 +8,7 @@ from dataclasses import replace
 from gudgeon.errors import BadValueError
 from gudgeon.generator.field import PLACE, Field
 from gudgeon.generator.format.sections import BODY, PLAY_START, POINT, POINT_OF_GROUND, SECTIONS, START
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields, read_vector
@@ -156,7 +156,7 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
 
 def _is_slider(node: Map) -> bool:
     """Return whether a joint, given by its node, is of a type whose play is that of a slider in its guide."""
-    return any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
+    return any(joint_type.play == "guide" and key in node for key, joint_type in find_joint_types().items())
 
 
 def _check_play_start_keys(joint: Text, node: Map, is_slider: bool) -> None:

@@ -83,6 +83,6 @@ class ElementType:
 
 
 @cache
-def element_types() -> Mapping[str, ElementType]:
+def find_element_types() -> Mapping[str, ElementType]:
     """Return all kinds of force elements by name."""
     return {e.kind: e for e in iterate_declarations("gudgeon.generator.kinds.forces", "ELEMENT", ElementType)}

@@ -64,6 +64,6 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(gap=find_closure_error_points),
+    Symbol(find_closure_error=find_closure_error_points),
     foreign_names=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
 )

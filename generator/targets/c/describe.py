@@ -29,7 +29,7 @@ from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.model import Model, find_eccentricity_rows
 from gudgeon.generator.equations.notes import write_scene_notes
 from gudgeon.generator.kernels.outputs import find_constraining_joints, list_force_element_series
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, iterate_quantities
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.language.tree import Expr, iterate_names, to_json
@@ -208,7 +208,9 @@ def _describe_joints(
             joint.kind,
             body_index[joint.first.body],
             body_index[joint.second.body],
-            _format_point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
+            _format_point_names(joint.first if find_joint_types()[joint.kind].reaction_at == "first" else joint.second)[
+                0
+            ],
             tuple(row_index[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in find_constraining_joints(model)

@@ -16,7 +16,7 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.dependence import find_symbol_names
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.targets.latex.document import (
     Block,
     Equation,
@@ -210,7 +210,10 @@ def _group_rows_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Ro
     for (owner, kind), rows in groupby(enumerate(model.rows, 1), key=lambda pair: (pair[1].owner, pair[1].kind)):
         if kind == "joint":
             joint = mechanism.joints[owner]
-            yield f"Joint {owner}, {joint_types()[joint.kind].title}, line {joint.where.line} of the file", list(rows)
+            yield (
+                f"Joint {owner}, {find_joint_types()[joint.kind].title}, line {joint.where.line} of the file",
+                list(rows),
+            )
         else:
             yield f"Drive {owner}, line {mechanism.drives[owner].where.line} of the file", list(rows)
 

@@ -6,7 +6,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
 from gudgeon.generator.targets.latex.document import (
     Block,
     Equation,
@@ -80,7 +80,7 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
     fields = [row for applied in model.elements.values() for row in list_field_rows(applied.element, values)]
     blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.pop_long_expressions()]
     for name, applied in model.elements.items():
-        element_type = element_types()[applied.element.kind]
+        element_type = find_element_types()[applied.element.kind]
         targets = " and ".join(format_point(target, element_type.targets) for target in applied.element.targets)
         blocks.append(make_paragraph(f"{name}: {element_type.title} ({targets})."))
         blocks += [
@@ -95,7 +95,7 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
                 make_equation(make_symbol_name("V", name), notation.expand_symbols(applied.loads.potential), notation)
             )
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        summary, *lines = read_sketch(element_types()[kind])
+        summary, *lines = read_sketch(find_element_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 
