@@ -55,7 +55,7 @@ class AppliedElement:
                 forces[k + 2] += point.arm[0] * load.y - point.arm[1] * load.x + load.moment
 
 
-def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
+def make_applied_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
     """Return a force element with the frames of its points and its loads; `t` is the symbol of time."""
     targets = tuple(geometry.find_point(ref) for ref in element.targets)
     loads = find_element_types()[element.kind].build(targets, ElementFields(element, geometry, t))

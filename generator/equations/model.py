@@ -21,7 +21,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.constraints import Constraints, Row
 from gudgeon.generator.equations.fields import MotionNameResolver
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
-from gudgeon.generator.equations.loads import AppliedElement, Friction, apply_element, make_friction
+from gudgeon.generator.equations.loads import AppliedElement, Friction, make_applied_element, make_friction
 from gudgeon.generator.equations.play import Clearance, make_clearances
 from gudgeon.generator.equations.user_defined_laws import check_user_defined_laws
 from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
@@ -389,7 +389,9 @@ def make_model(scene: Scene) -> Model:
         for clearance in make_clearances(mechanism.joints[name], play, geometry, parameter_table)
     ]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
-    elements = {element.name: apply_element(element, geometry, constraints.t) for element in mechanism.forces.values()}
+    elements = {
+        element.name: make_applied_element(element, geometry, constraints.t) for element in mechanism.forces.values()
+    }
     coordinate_pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
     frictions = tuple(
         make_friction(name, element.loads.slip, coordinate_pairs, constraints.t, symbols)

@@ -54,7 +54,8 @@ def read_force_expression(
     def find_law_symbol(path: str) -> sp.Expr:
         """Return the symbol of a name in the expression: `delta` or a parameter.
 
-        A parameter is registered in the symbol table as one of shared functions.
+        The parameter is copied to the symbol table if it belongs to the scene's other one
+        (`Symbols.add_shared_parameter`).
         """
         if path == "delta":
             return delta

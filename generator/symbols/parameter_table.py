@@ -156,7 +156,8 @@ class ParameterTable(Freezable):
         """Return the name of an array in Parameters that holds the values of several quantities, in their order.
 
         The array is named after `base_name`. If the first quantity is the first one of an existing array, that array is
-        used. The symbols of the elements are registered in the symbol table as parameters of shared functions.
+        used. The symbols of the elements are copied to the symbol table of the table if they belong to the scene's
+        other one (`Symbols.add_shared_parameter`).
         """
         name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
         if not name:
