@@ -215,7 +215,10 @@ def _remove_node(node: Map, path: Path) -> Map:
 
 
 def _make_errors(structure_errors: Sequence[_StructureError], document: Map) -> list[InputError]:
-    """Return errors of the structure as errors with locations; a missing key is not reported if the mapping has a key that resembles it."""
+    """Return the errors of the structure as input errors with locations.
+
+    A missing key is not reported if the mapping has a key that resembles it.
+    """
     paths_of_mistyped_keys = {
         (*structure_error.path[:-1], find_nearest_name(str(structure_error.path[-1]), structure_error.known_keys))
         for structure_error in structure_errors
@@ -229,7 +232,7 @@ def _make_errors(structure_errors: Sequence[_StructureError], document: Map) -> 
 
 
 def _make_error(structure_error: _StructureError, document: Map) -> InputError:
-    """Return one error of the structure as an error at its location: an unknown key, a missing key, or else a wrong value.
+    """Return the input error of one error of the structure: an unknown key, a missing key, or else a wrong value.
 
     An empty node has no location; the error has that of its key.
     """
