@@ -270,7 +270,7 @@ class DeclareBranches(Line):
     """
 
     output_target: str
-    held: bool = True
+    may_be_frozen: bool = True
 
     @property
     def names(self) -> Names:
@@ -279,7 +279,7 @@ class DeclareBranches(Line):
         These are `branch`, the outputs for switching functions by `output_target`, and `discrete` if branches are held.
         """
         outputs = {"": [], "local": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
-        return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
+        return frozenset(["branch", *outputs, *(["discrete"] if self.may_be_frozen else [])])
 
 
 @dataclass(frozen=True)

@@ -288,7 +288,9 @@ def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     or a member of the results ("rhs").
     """
     stored_branches = (
-        "discrete->is_frozen ? discrete->branch : NULL;" if branches.held else "NULL; /* branches are not frozen */"
+        "discrete->is_frozen ? discrete->branch : NULL;"
+        if branches.may_be_frozen
+        else "NULL; /* branches are not frozen */"
     )
     declarations = {"": [], "local": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
         branches.output_target

@@ -179,7 +179,7 @@ class LaneLinePrinter(functions.LinePrinter):
                 return ["const LaneParameters *const p = lin->p;"]
             case DeclareBranches():
                 stored_branches, local_array = (
-                    "frozen_branches(discrete)" if line.held else "NULL",
+                    "frozen_branches(discrete)" if line.may_be_frozen else "NULL",
                     "Lanes g[N_SWITCHES + 1];",
                 )
                 declarations_of_target = {

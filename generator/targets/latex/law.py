@@ -182,8 +182,8 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
 
     other_forms: forms of other choices, whose inputs and results are listed in the table, too.
     """
-    letters = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
-    rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
+    symbol_by_name = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
+    rows = [make_row(symbol_by_name[name], *_MEANINGS[name]) for name in _MEANINGS if name in symbol_by_name]
     yield from make_tables(make_row("symbol", "meaning", "unit"), rows)
     yield from describe_internal_states(law)
     if default_form.constants:
