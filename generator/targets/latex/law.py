@@ -291,7 +291,7 @@ def _derive_form(
     symbols_read = {name for name, value in equations_by_name.items() if value != 0}.union(*free_symbols)
     described_symbols = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
     described_symbols |= {name: _make_probe_symbol(name) for name in PAIR_QUANTITIES}
-    letters = tuple(
+    used_symbols = tuple(
         (name, notation.format_expression(symbol))
         for name, symbol in described_symbols.items()
         if symbol in symbols_read and name in _MEANINGS
@@ -301,7 +301,7 @@ def _derive_form(
         """Return {symbol: value} as equations in the notation of the law, in the same order."""
         return tuple(make_equation(left, right, notation) for left, right in definitions.items())
 
-    return Form(selected, make_equations(constants), make_equations(equations_by_name), letters)
+    return Form(selected, make_equations(constants), make_equations(equations_by_name), used_symbols)
 
 
 def _propose_symbol_names(
