@@ -52,7 +52,7 @@ def make_dependent_quantity(address: str, source: Quantity, location: Location) 
     return Quantity(address, Name(source.address), source.dimension, location, (source,))
 
 
-def make_onset_value(force: Quantity) -> Quantity:
+def make_force_at_zero_penetration(force: Quantity) -> Quantity:
     """Return the value at δ = 0 of a contact force, which is an expression of the penetration, as a quantity.
 
     Its address is that of the force with "_at_0" appended. It is a run-time parameter even if it is 0.

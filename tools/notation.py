@@ -20,7 +20,7 @@ from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
 from gudgeon.generator.kinds.laws.law import CONSTRAINT_VARIABLES, RESULTS, find_bundled_laws
 from gudgeon.generator.targets.latex.letters import make_symbol_name
-from gudgeon.generator.targets.latex.notation import get_field_letter
+from gudgeon.generator.targets.latex.notation import get_field_symbol
 from gudgeon.generator.targets.latex.play import BEARING_DIMENSIONS
 from gudgeon.generator.targets.latex.play_letters import GUIDE as GUIDE_LETTERS
 from gudgeon.generator.targets.latex.play_letters import LAW_SPECIFIC_NAMES, LAW_SYMBOL_NAMES, NAMES, get_latex_symbol
@@ -515,7 +515,7 @@ def _iterate_record_rows(path: str, record: Field) -> Iterator[tuple[str, ...]]:
     for field in record.fields:
         if field.kind == NUMBER:
             key = f"{path}.{field.name}"
-            shown = symbols.get(field.name) or make_symbol_name(get_field_letter(field.name)).latex
+            shown = symbols.get(field.name) or make_symbol_name(get_field_symbol(field.name)).latex
             paper = IN_PAPER.get(key, "")
             meaning = IN_SECTION.get(key) or _set_formulas(field.meaning)
             yield (

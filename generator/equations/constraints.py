@@ -12,7 +12,7 @@ from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.ir.differentiation import compute_partial_derivative
 from gudgeon.generator.ir.finite_slopes import FrozenSign
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, convert_to_sympy
 from gudgeon.generator.symbols.storage import Freezable, Place
@@ -57,11 +57,11 @@ class Constraints(Freezable):
         Φ_q contains both bodies and further bodies of the type, such as the carrier of a gear; the ground has no
         coordinates.
         """
-        kind = joint_types()[joint.kind]
+        kind = find_joint_types()[joint.kind]
         first, second = self._find_point_frame(joint.first), self._find_point_frame(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named_expressions = zip(kind.row_names, kind.row_units, expressions, strict=True)
-        other_bodies = [joint.options[name] for name in kind.third_bodies]  # a gear's carrier
+        other_bodies = [joint.options[name] for name in kind.third_body_fields]  # a gear's carrier
         bodies = self._list_bodies(first, second) + [
             self.geometry.bodies[name] for name in other_bodies if name != GROUND
         ]

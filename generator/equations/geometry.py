@@ -140,7 +140,7 @@ class Geometry(Freezable):
         if not is_massless(self.mechanism) and body.mass and body.inertia:
             mass, inertia = (
                 self.parameter_table.get_or_add_parameter(body.mass),
-                self.parameter_table.get_or_add_parameter(body.inertia, zero=True),
+                self.parameter_table.get_or_add_parameter(body.inertia, adds_zero=True),
             )
         return BodySymbols(name, first_index, x, y, theta, vx, vy, omega, mass, inertia)
 

@@ -14,7 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.fields import ElementFields
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
-from gudgeon.generator.kinds.forces.force_type import Loads, Slip, element_types
+from gudgeon.generator.kinds.forces.force_type import Loads, Slip, find_element_types
 from gudgeon.generator.mechanism import ForceElement
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -55,10 +55,10 @@ class AppliedElement:
                 forces[k + 2] += point.arm[0] * load.y - point.arm[1] * load.x + load.moment
 
 
-def build_applied_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
-    """Return a force element with the frames of its points and the loads of its type; `t` is the symbol of time."""
+def make_applied_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
+    """Return a force element with the frames of its points and its loads; `t` is the symbol of time."""
     targets = tuple(geometry.find_point(ref) for ref in element.targets)
-    loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
+    loads = find_element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)
 
 

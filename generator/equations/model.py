@@ -21,7 +21,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.constraints import Constraints, Row
 from gudgeon.generator.equations.fields import MotionNameResolver
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
-from gudgeon.generator.equations.loads import AppliedElement, Friction, build_applied_element, make_friction
+from gudgeon.generator.equations.loads import AppliedElement, Friction, make_applied_element, make_friction
 from gudgeon.generator.equations.play import Clearance, make_clearances
 from gudgeon.generator.equations.user_defined_laws import check_user_defined_laws
 from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
@@ -390,7 +390,7 @@ def make_model(scene: Scene) -> Model:
     ]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
     elements = {
-        element.name: build_applied_element(element, geometry, constraints.t) for element in mechanism.forces.values()
+        element.name: make_applied_element(element, geometry, constraints.t) for element in mechanism.forces.values()
     }
     coordinate_pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
     frictions = tuple(

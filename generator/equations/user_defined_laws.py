@@ -20,7 +20,7 @@ from gudgeon.errors import BadValueError, LawError
 from gudgeon.generator.kinds.laws.built import PAIR_QUANTITIES, probe_law
 from gudgeon.generator.kinds.laws.law import OPTIONAL_VARIABLES, RESULTS, USER_LAWS, VARIABLES, Law, find_all_laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_law_name, format_law_prefix
-from gudgeon.generator.mechanism import LawUse, Quantity, Scene, make_onset_value
+from gudgeon.generator.mechanism import LawUse, Quantity, Scene, make_force_at_zero_penetration
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, find_classes
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.language.functions import Units
@@ -51,22 +51,26 @@ def read_force_expression(
     Raise BadValueError for a force that does not depend on δ, is not finite, is negative, or has no slope at δ = 0.
     """
 
-    def find_symbol(path: str) -> sp.Expr:
-        """Return the symbol of a name in the expression: `delta` or a parameter."""
+    def find_law_symbol(path: str) -> sp.Expr:
+        """Return the symbol of a name in the expression: `delta` or a parameter.
+
+        The parameter is copied to the symbol table if it belongs to the scene's other one
+        (`Symbols.add_shared_parameter`).
+        """
         if path == "delta":
             return delta
         parameter: sp.Symbol = parameter_table.entries[f"parameters.{path}"].symbol
         parameter_table.symbols.add_shared_parameter(parameter)
         return parameter
 
-    value = convert_quantity_to_sympy(force, find_symbol)
+    value = convert_quantity_to_sympy(force, find_law_symbol)
     if not value.has(delta):
         hint = "expected an expression such as 1e8 N/m * delta: its terms cancel"
         raise BadValueError(f"{force.address} does not depend on delta, the penetration", force.where, hint)
     _check_force(force, max_penetration, parameter_table)
     _check_slope(force, value, delta, parameter_table)
     if value.subs(delta, 0) != 0:
-        parameter_table.get_or_add_parameter(make_onset_value(force))
+        parameter_table.get_or_add_parameter(make_force_at_zero_penetration(force))
     return value
 
 
@@ -133,12 +137,12 @@ _SAME_UNIT_FUNCTIONS = find_classes(lambda f: f.units is Units.SAME)
 _RATIO_FUNCTIONS = find_classes(lambda f: f.units is Units.RATIO)
 
 
-class _Flexible:
+class _FlexibleDimension:
     """A dimension that is not fixed: of a plain number, or of a value that may have any unit in the file."""
 
 
-_PLAIN_NUMBER, _ANY_UNIT = _Flexible(), _Flexible()
-_DimensionOrFlexible = Dimension | _Flexible
+_PLAIN_NUMBER, _ANY_UNIT = _FlexibleDimension(), _FlexibleDimension()
+_DimensionOrFlexible = Dimension | _FlexibleDimension
 
 
 def check_units(law: Law, law_use: LawUse) -> None:

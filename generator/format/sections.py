@@ -31,8 +31,8 @@ from gudgeon.generator.field import (
     word,
 )
 from gudgeon.generator.kinds.drives import DRIVES
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.kinds.laws.law import Law, find_laws_of_role
 from gudgeon.language.curves import ENDS, EXTRAPOLATE, INTERPOLATIONS, NATURAL, SPLINE, STOP
 from gudgeon.language.units import (
@@ -131,7 +131,7 @@ def _list_joint_kinds() -> Mapping[str, Kind]:
     """Return the joint types as kinds of the section `joints`, by name."""
     return {
         kind: Kind(joint_type.title, joint_type.fields, joint_type.joins, (2,), joint_type.foreign_names)
-        for kind, joint_type in joint_types().items()
+        for kind, joint_type in find_joint_types().items()
     }
 
 
@@ -145,7 +145,7 @@ def _list_force_kinds() -> Mapping[str, Kind]:
             element_type.counts,
             element_type.foreign_names,
         )
-        for kind, element_type in element_types().items()
+        for kind, element_type in find_element_types().items()
     }
 
 

@@ -77,14 +77,17 @@ def check_tree_structure(root: Map) -> CheckedTree:
     errors: list[InputError] = []
     removed_names: set[str] = set()
     while len(errors) < MAX_FINDINGS:
-        findings = list(islice(_find_errors(MECHANISM_FILE, document, ()), MAX_FINDINGS))
-        if not findings:
+        structure_errors = list(islice(_find_errors(MECHANISM_FILE, document, ()), MAX_FINDINGS))
+        if not structure_errors:
             return CheckedTree(document, tuple(errors), frozenset(removed_names))
-        errors += _make_errors(findings, document)
-        if any(finding.path[0] in _REQUIRED_SECTIONS and len(finding.path) == 1 for finding in findings):
+        errors += _make_errors(structure_errors, document)
+        if any(
+            structure_error.path[0] in _REQUIRED_SECTIONS and len(structure_error.path) == 1
+            for structure_error in structure_errors
+        ):
             break
-        for finding in findings:
-            document = _remove_wrong_entry(document, finding, removed_names)
+        for structure_error in structure_errors:
+            document = _remove_wrong_entry(document, structure_error, removed_names)
     raise combine_errors(errors)
 
 
@@ -107,7 +110,7 @@ def check_format(root: Map) -> None:
 
 
 @dataclass(frozen=True)
-class _Finding:
+class _StructureError:
     """Represent an error at `path`: a missing key, an unknown key, or a node that is not what was `expected`."""
 
     path: Path
@@ -119,7 +122,7 @@ class _Finding:
 _TWO_COMPONENTS = "two: [x, y]"
 
 
-def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
+def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_StructureError]:
     """Yield the errors in the shape of a node, in the order of the declaration.
 
     `field` declares the node at `path`. Inner nodes are checked recursively. Entries whose kind decides on their keys
@@ -127,36 +130,36 @@ def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
     """
     if field.kind in SCALARS:
         if not isinstance(node, Text):
-            yield _Finding(path, "a number or a text")
+            yield _StructureError(path, "a number or a text")
     elif field.kind == VECTOR or field.kind == PLACE and isinstance(node, Items):
         yield from _find_errors_in_vector(node, path)
     elif field.kind == POINTS:
         yield from _find_errors_in_points(node, path)
     elif field.kind == DEPTHS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
-            yield _Finding(path, "depths at equal angles: [0 mm, 0.1 mm, …], or the number of depths")
+            yield _StructureError(path, "depths at equal angles: [0 mm, 0.1 mm, …], or the number of depths")
     elif field.kind == RESULTS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
-            yield _Finding(path, "a list of names of results: [S9.ay, A.F]")
+            yield _StructureError(path, "a list of names of results: [S9.ay, A.F]")
     elif field.kind == PLACE:
         if not isinstance(node, Text):
-            yield _Finding(path, "a number, or of a point [x, y]")
+            yield _StructureError(path, "a number, or of a point [x, y]")
     elif field.kind == CORNERS:
         if not isinstance(node, Items) or len(node) != 3 or not all(isinstance(item, Text) for item in node):
-            yield _Finding(path, "three points of the body: [P, Q, R]")
+            yield _StructureError(path, "three points of the body: [P, Q, R]")
     elif not isinstance(node, Map):
         needed = ", ".join(
             f"{inner_field.name}: …" for inner_field in field.fields if inner_field.required or inner_field.either
         )
-        yield _Finding(path, f"a mapping: {{{needed}}}" if path and needed else "a mapping")
+        yield _StructureError(path, f"a mapping: {{{needed}}}" if path and needed else "a mapping")
     elif field.kind == RECORD:
         for inner_field in field.fields:
             if inner_field.name in node:
                 yield from _find_errors(inner_field, node[inner_field.name], (*path, inner_field.name))
             elif inner_field.required:
-                yield _Finding((*path, inner_field.name), is_missing=True)
+                yield _StructureError((*path, inner_field.name), is_missing=True)
         known_keys = tuple(inner_field.name for inner_field in field.fields)
-        yield from (_Finding((*path, key), known_keys=known_keys) for key in node if key not in known_keys)
+        yield from (_StructureError((*path, key), known_keys=known_keys) for key in node if key not in known_keys)
     elif field.kind == MAPPING and field.entry is not None:
         for name, entry in node.items():
             yield from _find_errors(field.entry, entry, (*path, name))
@@ -164,34 +167,34 @@ def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
         assert field.kind in (KINDS, LAW)
 
 
-def _find_errors_in_vector(node: Any, path: Path) -> Iterator[_Finding]:
+def _find_errors_in_vector(node: Any, path: Path) -> Iterator[_StructureError]:
     """Yield the errors of a node that must be a list of two texts."""
     if not isinstance(node, Items):
-        yield _Finding(path, "a list of two: [x, y]")
+        yield _StructureError(path, "a list of two: [x, y]")
     elif len(node) != 2:
-        yield _Finding(path, _TWO_COMPONENTS)
+        yield _StructureError(path, _TWO_COMPONENTS)
     else:
-        yield from (_Finding((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
+        yield from (_StructureError((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
 
 
-def _find_errors_in_points(node: Any, path: Path) -> Iterator[_Finding]:
+def _find_errors_in_points(node: Any, path: Path) -> Iterator[_StructureError]:
     """Yield the errors of a node that must be a list of points, each a list of two texts."""
     if not isinstance(node, Items):
-        yield _Finding(path, "a list of points: [[x, y], …]")
+        yield _StructureError(path, "a list of points: [[x, y], …]")
     else:
         for i, point in enumerate(node):
             yield from _find_errors_in_vector(point, (*path, i))
 
 
-def _remove_wrong_entry(document: Map, finding: _Finding, removed_names: set[str]) -> Map:
+def _remove_wrong_entry(document: Map, structure_error: _StructureError, removed_names: set[str]) -> Map:
     """Return the tree without an unknown key, or without the entry that contains an error.
 
     Names of removed entries are added to `removed_names`; ANY_NAME is added if a section was removed that is not a
     mapping.
     """
-    path, section = finding.path, SECTIONS.get(str(finding.path[0]))
+    path, section = structure_error.path, SECTIONS.get(str(structure_error.path[0]))
     has_names = section is None or section.kind == MAPPING
-    if finding.known_keys is None:
+    if structure_error.known_keys is None:
         path = path[:2] if section is not None and has_names else path[:1]
         if len(path) == 2:
             removed_names.add(str(path[1]))
@@ -211,32 +214,38 @@ def _remove_node(node: Map, path: Path) -> Map:
     return Map.make_map({key: value for key, value in node.items() if key != first_key}, node.where)
 
 
-def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
-    """Return the findings as errors; a missing key is not reported if the mapping has a key that resembles it."""
+def _make_errors(structure_errors: Sequence[_StructureError], document: Map) -> list[InputError]:
+    """Return the errors of the structure as input errors with locations.
+
+    A missing key is not reported if the mapping has a key that resembles it.
+    """
     paths_of_mistyped_keys = {
-        (*finding.path[:-1], find_nearest_name(str(finding.path[-1]), finding.known_keys))
-        for finding in findings
-        if finding.known_keys is not None
+        (*structure_error.path[:-1], find_nearest_name(str(structure_error.path[-1]), structure_error.known_keys))
+        for structure_error in structure_errors
+        if structure_error.known_keys is not None
     }
     return [
-        _make_error(finding, document)
-        for finding in findings
-        if not (finding.is_missing and finding.path in paths_of_mistyped_keys)
+        _make_error(structure_error, document)
+        for structure_error in structure_errors
+        if not (structure_error.is_missing and structure_error.path in paths_of_mistyped_keys)
     ]
 
 
-def _make_error(finding: _Finding, document: Map) -> InputError:
-    """Return one finding as an error at its location: an unknown key, a missing key, or else a wrong value.
+def _make_error(structure_error: _StructureError, document: Map) -> InputError:
+    """Return the input error of one error of the structure: an unknown key, a missing key, or else a wrong value.
 
     An empty node has no location; the error has that of its key.
     """
-    path, parent_path = finding.path, finding.path[:-1]
-    if finding.known_keys is not None:
+    path, parent_path = structure_error.path, structure_error.path[:-1]
+    if structure_error.known_keys is not None:
         key = _find_node(document, parent_path).find_key(str(path[-1]))
         return make_unknown_key_error(
-            key, finding.known_keys, _format_address(parent_path), _make_hint_for_foreign_key(parent_path, key.lower())
+            key,
+            structure_error.known_keys,
+            _format_address(parent_path),
+            _make_hint_for_foreign_key(parent_path, key.lower()),
         )
-    if finding.is_missing:
+    if structure_error.is_missing:
         return make_missing_key_error(
             str(path[-1]), _find_node(document, parent_path).where, _format_address(parent_path)
         )
@@ -248,10 +257,10 @@ def _make_error(finding: _Finding, document: Map) -> InputError:
         )  # an empty node has no location: the key's is used
     fault = (
         f"has {len(node)} component{'s' * (len(node) != 1)}"
-        if finding.expected == _TWO_COMPONENTS
+        if structure_error.expected == _TWO_COMPONENTS
         else f"is {describe_node(node)}"
     )
-    return BadValueError(f"{_format_address(path)} {fault}", location, f"expected {finding.expected}")
+    return BadValueError(f"{_format_address(path)} {fault}", location, f"expected {structure_error.expected}")
 
 
 def _make_hint_for_foreign_key(parent_path: Path, key: str) -> str:

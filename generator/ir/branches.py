@@ -86,8 +86,9 @@ class Branches:
         """Return the lines of a section with a `Branch` line before the first line that reads each conditional value.
 
         A conditional value is a `Select`, one of two expressions by the sign of a switching function. An assignment
-        whose value is itself a `Select` becomes a `Branch` line. The names of the results are added to `names`. Called
-        once per section, in order.
+        whose value is itself a `Select` becomes a `Branch` line. The names of the results are added to `names`. The
+        switching function of each local that is assigned a frozen branch (`BranchOf`) is recorded. Called once per
+        section, in order.
         """
         result: list[Line] = []
         for line in lines:

@@ -123,7 +123,7 @@ class _ComplexConverter:
 
     def _is_complex(self, line: Line) -> bool:
         """Return whether any expression of a line contains a symbol with an imaginary part."""
-        return any(self._find_part_symbols(s) for x in line.expressions for s in x.free_symbols)
+        return any(self._split_symbol(s) for x in line.expressions for s in x.free_symbols)
 
     def _split_statement(self, line: Statement) -> list[Line]:
         """Return the assignments of the real and of the imaginary part of a statement.
@@ -137,7 +137,7 @@ class _ComplexConverter:
                 return [replace(line, value=real)]
             self.complex_locals.add(local)
             return [replace(line, value=real), replace(line, target=local + IMAGINARY, value=imaginary)]
-        if places := self._find_part_places(line.target):
+        if places := self._split_storage_location(line.target):
             return [replace(line, target=places[0], value=real), replace(line, target=places[1], value=imaginary)]
         return [replace(line, value=real)]
 
@@ -148,7 +148,7 @@ class _ComplexConverter:
         """
         match value:
             case Place():
-                return self._find_part_places(value) or (value, ZERO)
+                return self._split_storage_location(value) or (value, ZERO)
             case Conditional():
                 then, otherwise = self.split_expression(value.then), self.split_expression(value.otherwise)
                 parts = [replace(value, then=a, otherwise=b) for a, b in zip(then, otherwise, strict=True)]
@@ -157,7 +157,7 @@ class _ComplexConverter:
                 return self.split_expression(value)
         raise ValueError(f"a value of a kernel has no complex counterpart: {value}")
 
-    def _find_part_places(self, place: Key) -> tuple[Place, Place] | None:
+    def _split_storage_location(self, place: Key) -> tuple[Place, Place] | None:
         """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.
 
         Return None if `place` (a storage location or the name of a local) is not an element of a complex array.
@@ -167,13 +167,13 @@ class _ComplexConverter:
                 return Place(base, (*path, 2 * k)), Place(base, (*path, 2 * k + 1))
         return None
 
-    def _find_part_symbols(self, symbol: sp.Symbol) -> Parts | None:
+    def _split_symbol(self, symbol: sp.Symbol) -> Parts | None:
         """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real.
 
         They are two elements of the array for a stored value, and (x, x with the suffix IMAGINARY) for a local x.
         """
         name = symbol.name
-        if places := self._find_part_places(find_value_key(symbol)):
+        if places := self._split_storage_location(find_value_key(symbol)):
             return PlaceSymbol(places[0]), PlaceSymbol(places[1])
         return (
             (symbol, sp.Symbol(name + IMAGINARY)) if name in self.complex_locals or name in self.complex_keys else None
@@ -189,8 +189,8 @@ class _ComplexConverter:
         if value.is_Symbol:
             if value.name in self.zero_arguments:
                 return ZERO, ZERO
-            return self._find_part_symbols(value) or (value, ZERO)
-        if not any(self._find_part_symbols(s) or s.name in self.zero_arguments for s in value.free_symbols):
+            return self._split_symbol(value) or (value, ZERO)
+        if not any(self._split_symbol(s) or s.name in self.zero_arguments for s in value.free_symbols):
             return value, ZERO
         if value.is_Add:
             term_parts = [self.split_expression(x) for x in value.args]

@@ -15,43 +15,46 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.symbols.storage import Key, Place, find_value_key
 from gudgeon.generator.symbols.switches import Select
 
-Marks = frozenset[str]
-NO_MARKS: Marks = frozenset()
+Criteria = frozenset[str]
+NO_CRITERIA: Criteria = frozenset()
 
 
 @dataclass(frozen=True)
-class LineMarks:
-    """Marks of each line of a function by what it stores to, and of the parameters that it reads."""
+class SliceMembership:
+    """The slicing criteria of each line of a function, by what it stores to, and of the parameters that it reads."""
 
-    by_target: Mapping[Key, Marks]
-    by_parameter: Mapping[Place, Marks]
+    by_target: Mapping[Key, Criteria]
+    by_parameter: Mapping[Place, Criteria]
 
 
-def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
-    """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
+def compute_backward_slices(
+    function: Readable, find_criteria: Callable[[Statement | Branch], Criteria]
+) -> SliceMembership:
+    """Return the slicing criteria whose backward slices contain each line and each parameter of a function.
 
-    A mark is a text, such as the name of a result. A line has its own marks, `find_marks(line)`, and those of all
-    later lines that depend on it. The result maps the target of each line, and each parameter that is read, to a set
-    of marks; entries without marks are left out.
+    A criterion is a text, such as the name of a result. A line is in the slices of its own criteria,
+    `find_criteria(line)`, and in those of all later lines that depend on it. The result maps the target of each line,
+    and the storage location of each parameter that is read, to a set of criteria; entries without criteria are left
+    out.
     """
-    marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
-    marks_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
+    criteria_by_name: defaultdict[Key, set[str]] = defaultdict(set)
+    criteria_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
     name_of_place: dict[Key, Key] = {place: name for name, place in function.names.items() if isinstance(place, Place)}
     for section in reversed(function.sections):
         for line in reversed(section.statements):
             if not isinstance(line, (Statement, Branch)):
                 continue
             name = line.declared_local or name_of_place.get(line.target, line.target)
-            line_marks = marks_by_name[name] | find_marks(line)
-            marks_of_stored[line.target] |= line_marks
+            line_criteria = criteria_by_name[name] | find_criteria(line)
+            criteria_of_stored[line.target] |= line_criteria
             for key in _find_used_variables(line, function):
-                marks_by_name[key] |= line_marks
-    marks_of_parameters: defaultdict[Place, set[str]] = defaultdict(set)
-    for name, line_marks in marks_by_name.items():
+                criteria_by_name[key] |= line_criteria
+    criteria_of_parameters: defaultdict[Place, set[str]] = defaultdict(set)
+    for name, line_criteria in criteria_by_name.items():
         place = function.names.get(name, name)
         if isinstance(place, Place) and place.is_parameter:
-            marks_of_parameters[place] |= line_marks
-    return LineMarks(_freeze_sets(marks_of_stored), _freeze_sets(marks_of_parameters))
+            criteria_of_parameters[place] |= line_criteria
+    return SliceMembership(_freeze_sets(criteria_of_stored), _freeze_sets(criteria_of_parameters))
 
 
 def _find_used_variables(line: Statement | Branch, function: Readable) -> set[Key]:
@@ -72,9 +75,9 @@ def _find_used_variables(line: Statement | Branch, function: Readable) -> set[Ke
     return keys - {line.target}
 
 
-def _freeze_sets(marks_by_key: Mapping[Any, set[str]]) -> dict[Any, Marks]:
+def _freeze_sets(criteria_by_key: Mapping[Any, set[str]]) -> dict[Any, Criteria]:
     """Return the non-empty entries of a mapping with their sets of marks as frozen sets."""
-    return {key: frozenset(marks) for key, marks in marks_by_key.items() if marks}
+    return {key: frozenset(marks) for key, marks in criteria_by_key.items() if marks}
 
 
 def find_symbol_names(expression: sp.Expr) -> set[str]:

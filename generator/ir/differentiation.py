@@ -156,7 +156,8 @@ class Tangents:
     def _split_power(self, power: sp.Pow) -> sp.Expr:
         """Return the power x^n, whose exponent contains symbols, as x · x^(n−1), with the second factor as a local.
 
-        A power whose exponent has the constant term −1 becomes a local as it is: it is such a factor already.
+        The power and its derivative n x^(n−1) then share that factor. A power whose exponent has the constant term −1
+        becomes a local as it is: it is such a factor already.
         """
         if power.exp.as_coeff_Add()[0] == -1:
             return self._store_power("power", power)

@@ -264,14 +264,14 @@ def _may_overflow_when_squared(term: sp.Expr) -> bool:
     """Return whether differentiation of a term would square a value whose square may overflow or underflow.
 
     Such terms are v^-n with a number n, and atan(v) and similar functions, if v contains extreme parts
-    (`_is_extreme_part`).
+    (`_has_extreme_magnitude`).
     """
     if isinstance(term, _SQUARING_CLASSES):
         squares = term.args[0].is_Mul or bool(_find_unsquared_derivative(term))
-        return squares and any(map(_is_extreme_part, sp.preorder_traversal(term.args[0])))
+        return squares and any(map(_has_extreme_magnitude, sp.preorder_traversal(term.args[0])))
     if not (term.is_Pow and term.exp.is_number and term.exp.is_extended_negative):
         return False
-    return any(map(_is_extreme_part, sp.preorder_traversal(term.base)))
+    return any(map(_has_extreme_magnitude, sp.preorder_traversal(term.base)))
 
 
 def _find_unsquared_derivative(term: sp.Expr) -> str:
@@ -282,16 +282,16 @@ def _find_unsquared_derivative(term: sp.Expr) -> str:
     return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
-def _is_extreme_part(part: sp.Basic) -> bool:
-    """Return whether a part of an expression may be so large or small that its square overflows or underflows.
+def _has_extreme_magnitude(expression: sp.Basic) -> bool:
+    """Return whether an expression may be so large or small that its square overflows or underflows.
 
-    Such parts are numbers of magnitude 10^_MAX_SAFE_DECADES or more, products with a factor up to its reciprocal, and
-    exponentials. Powers count if the exponent is variable or its magnitude is above `_MAX_SAFE_POWER`.
+    Such expressions are numbers of magnitude 10^_MAX_SAFE_DECADES or more, products with a factor up to its reciprocal,
+    and exponentials. Powers count if the exponent is variable or its magnitude is above `_MAX_SAFE_POWER`.
     """
-    if part.is_Number:
-        return bool(part.is_finite and abs(part) >= sp.Float(f"1e{_MAX_SAFE_DECADES}"))
-    if part.is_Mul and part.args[0].is_Number:  # a small term alone keeps a sum from 0
-        return bool(0 < abs(part.args[0]) <= sp.Float(f"1e-{_MAX_SAFE_DECADES}"))
-    return isinstance(part, _EXPONENTIAL_CLASSES) or bool(
-        part.is_Pow and (not part.exp.is_number or abs(part.exp) > _MAX_SAFE_POWER)
+    if expression.is_Number:
+        return bool(expression.is_finite and abs(expression) >= sp.Float(f"1e{_MAX_SAFE_DECADES}"))
+    if expression.is_Mul and expression.args[0].is_Number:  # a small term alone keeps a sum from 0
+        return bool(0 < abs(expression.args[0]) <= sp.Float(f"1e-{_MAX_SAFE_DECADES}"))
+    return isinstance(expression, _EXPONENTIAL_CLASSES) or bool(
+        expression.is_Pow and (not expression.exp.is_number or abs(expression.exp) > _MAX_SAFE_POWER)
     )

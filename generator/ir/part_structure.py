@@ -18,7 +18,7 @@ from gudgeon.generator.ir.statements import Guard, Line, Return, Statement
 from gudgeon.generator.ir.values import ContinuedSum, Test
 from gudgeon.generator.symbols.storage import Key, Place
 
-_FIRST_MARK, _MARKS_OF_OPERAND = 10**9, 100  # above all indices; above all lengths of paths
+_FIRST_PLACEHOLDER, _PLACEHOLDERS_OF_OPERAND = 10**9, 100  # above all indices; above all lengths of paths
 
 
 @dataclass(frozen=True)
@@ -42,49 +42,57 @@ class PartStructure:
     key: Hashable
     operands: tuple[Operand, ...]
 
-    def list_marks(self) -> list[int]:
-        """Return the marks of all operands; parts of equal `key` have the same marks."""
+    def list_placeholders(self) -> list[int]:
+        """Return the placeholders of all operands; parts of equal `key` have the same ones."""
         sizes = (len(operand.path) if isinstance(operand, Place) else 1 for operand in self.operands)
-        return [_compute_mark(k, step) for k, size in enumerate(sizes) for step in range(size)]
+        return [_compute_placeholder(k, step) for k, size in enumerate(sizes) for step in range(size)]
 
-    def get_marked_value(self, mark: int) -> int | str:
-        """Return what `mark_operands` replaces by a mark: an index, a status, or the name of a parameter."""
-        k, step = divmod(mark - _FIRST_MARK, _MARKS_OF_OPERAND)
+    def get_replaced_value(self, placeholder: int) -> int | str:
+        """Return what `insert_placeholders` replaces by a placeholder: an index, a status, or a parameter's name."""
+        k, step = divmod(placeholder - _FIRST_PLACEHOLDER, _PLACEHOLDERS_OF_OPERAND)
         operand = self.operands[k]
         if isinstance(operand, _ReturnedStatus):
             return operand.number
         assert isinstance(operand, Place)
         return operand.path[step]
 
-    def mark_operands(self, readable: Readable) -> Readable:
-        """Return the readable form of the part with a mark in place of each index, parameter and status."""
-        number_by_operand = {operand: k for k, operand in enumerate(self.operands)}
-        marked: dict[Key, Place] = {
-            place: _mark_place(place, k) for place, k in number_by_operand.items() if isinstance(place, Place)
-        }
-        names = {x: marked.get(y, y) if isinstance(y, Place) else y for x, y in readable.names.items()}
+    def insert_placeholders(self, readable: Readable) -> Readable:
+        """Return the readable form of the part with a placeholder for each index, parameter and status.
 
-        def mark_line(line: Line) -> Line:
-            """Return a line with the mark of its status, if it is a test of a pivot."""
+        A placeholder is a number that no index has. Parts of equal structure then have equal texts.
+        """
+        number_by_operand = {operand: k for k, operand in enumerate(self.operands)}
+        location_with_placeholders: dict[Key, Place] = {
+            place: _insert_index_placeholders(place, k)
+            for place, k in number_by_operand.items()
+            if isinstance(place, Place)
+        }
+        names = {
+            x: location_with_placeholders.get(y, y) if isinstance(y, Place) else y for x, y in readable.names.items()
+        }
+
+        def insert_status_placeholder(line: Line) -> Line:
+            """Return a line with a placeholder for its status, if it is a test of a pivot; others unchanged."""
             if not isinstance(line, Guard):
                 return line
             k = number_by_operand[_ReturnedStatus(line.number)]
-            return replace(line, number=_compute_mark(k))
+            return replace(line, number=_compute_placeholder(k))
 
         sections = tuple(
-            replace(section, statements=tuple(map(mark_line, section.statements))) for section in readable.sections
+            replace(section, statements=tuple(map(insert_status_placeholder, section.statements)))
+            for section in readable.sections
         )
-        return replace(readable, sections=sections, names={**marked, **names})
+        return replace(readable, sections=sections, names={**location_with_placeholders, **names})
 
 
-def _compute_mark(k: int, step: int = 0) -> int:
-    """Return the mark of a step in the path of operand k, a number that no index has."""
-    return _FIRST_MARK + _MARKS_OF_OPERAND * k + step
+def _compute_placeholder(k: int, step: int = 0) -> int:
+    """Return the placeholder of a step in the path of operand k, a number that no index has."""
+    return _FIRST_PLACEHOLDER + _PLACEHOLDERS_OF_OPERAND * k + step
 
 
-def format_parameter_mark(mark: int) -> str:
-    """Return the name that `mark_operands` gives to a parameter with this mark."""
-    return f"mark_{mark}"
+def format_parameter_placeholder(placeholder: int) -> str:
+    """Return the name that `insert_placeholders` gives to a parameter with this placeholder."""
+    return f"mark_{placeholder}"
 
 
 def find_part_structure(part: Kernel) -> PartStructure | None:
@@ -112,11 +120,11 @@ def _is_parameter_member(place: Place) -> bool:
     return place.is_parameter and len(place.path) == 1
 
 
-def _mark_place(place: Place, k: int) -> Place:
-    """Return operand k, a storage location, with marks in place of its indices, or of its parameter."""
+def _insert_index_placeholders(place: Place, k: int) -> Place:
+    """Return operand k, a storage location, with placeholders for its indices, or for its parameter."""
     if _is_parameter_member(place):
-        return replace(place, path=(format_parameter_mark(_compute_mark(k)),))
-    steps = (_compute_mark(k, j) if isinstance(step, int) else step for j, step in enumerate(place.path))
+        return replace(place, path=(format_parameter_placeholder(_compute_placeholder(k)),))
+    steps = (_compute_placeholder(k, j) if isinstance(step, int) else step for j, step in enumerate(place.path))
     return replace(place, path=tuple(steps))
 
 

@@ -17,9 +17,9 @@ from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import PlaceSymbol
 
 
-def is_division(part: sp.Basic) -> bool:
+def is_division(expression: sp.Basic) -> bool:
     """Return whether an expression is x^-n with a positive integer n and an x that contains a symbol."""
-    return bool(part.is_Pow and part.exp.is_Integer and part.exp < 0 and part.free_symbols)
+    return bool(expression.is_Pow and expression.exp.is_Integer and expression.exp < 0 and expression.free_symbols)
 
 
 def find_base_name(power: sp.Basic) -> str:
@@ -35,14 +35,14 @@ def hoist_reciprocals(parameter_table: ParameterTable, value: sp.Expr) -> sp.Exp
     Constants are expressions of parameters alone. The derived parameters are added to `parameter_table`.
     """
 
-    def is_constant_division(part: sp.Basic) -> bool:
-        """Return whether a part is a division by parameters alone."""
-        return is_division(part) and parameter_table.is_constant(part.base)
+    def is_constant_division(expression: sp.Basic) -> bool:
+        """Return whether an expression is a division by parameters alone."""
+        return is_division(expression) and parameter_table.is_constant(expression.base)
 
-    def derive_reciprocal(part: sp.Pow) -> sp.Expr:
+    def derive_reciprocal(division: sp.Pow) -> sp.Expr:
         """Return the division as a power of a derived parameter 1/x, which is added to the table."""
-        name = find_base_name(part)
-        return parameter_table.derive_parameter(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
+        name = find_base_name(division)
+        return parameter_table.derive_parameter(f"inverse_{name}", 1 / division.base, f"1/{name}") ** -division.exp
 
     return value.replace(is_constant_division, derive_reciprocal) if value.has(sp.Pow) else value
 
@@ -66,9 +66,9 @@ def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
     used_names = {s.declared_local for s in statements}
     reciprocals: dict[sp.Expr, sp.Symbol] = {}
 
-    def is_repeated_division(part: sp.Basic) -> bool:
-        """Return whether a part is a division by a denominator that occurs more than once."""
-        return is_division(part) and count_by_denominator[part.base] > 1
+    def is_repeated_division(expression: sp.Basic) -> bool:
+        """Return whether an expression is a division by a denominator that occurs more than once."""
+        return is_division(expression) and count_by_denominator[expression.base] > 1
 
     result = []
     for section in sections:

@@ -28,8 +28,9 @@ _STRUCTURE_KEYS: dict[Hashable, Hashable] = {}  # (structure of an expression, k
 def divide_into_repeats(shapes: Sequence[Hashable], max_length: int, min_length: int) -> list[tuple[int, bool]]:
     """Return (length, whether it repeats) of successive groups of a sequence of shapes.
 
-    A group repeats if MIN_REPETITIONS or more groups have the same shapes and `min_length` to `max_length` statements.
-    Statements between two such groups form one group that does not repeat.
+    A group repeats if MIN_REPETITIONS or more groups of the sequence have the same shapes and `min_length` to
+    `max_length` statements; equal groups need not be adjacent. The groups are the symbols of the repeated replacement
+    of pairs. Statements between two such groups form one group that does not repeat.
     """
     symbols, lengths = _replace_pairs(shapes, max_length)
     counts = Counter(symbols)

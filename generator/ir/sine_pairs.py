@@ -49,7 +49,7 @@ def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     sections: list[Section] = []
     n_groups = 0  # groups, or angles, so far
     for section in kernel.sections:
-        simplified = tuple(_reuse_known_sines(statement, symbol_of_function) for statement in section.statements)
+        simplified = tuple(_replace_common_sines(statement, symbol_of_function) for statement in section.statements)
         new_section, n_groups = _group_sines_in_section(Section(section.title, simplified), make_lines, n_groups)
         sections.append(new_section)
         for statement in section.statements:
@@ -58,10 +58,11 @@ def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     return replace(kernel, sections=tuple(sections))
 
 
-def _reuse_known_sines(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
+def _replace_common_sines(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
     """Return a line with its value replaced by a local if an earlier section computes that cosine or sine.
 
-    `known_symbols` gives the symbol of the local by value. Other lines are returned unchanged.
+    This eliminates common subexpressions. `known_symbols` gives the symbol of the local by value. Other lines are
+    returned unchanged.
     """
     return change_expression(line, lambda value: known_symbols.get(value, value))
 
@@ -76,8 +77,9 @@ def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: 
     """Return the section with its cosines and sines in groups, as early as possible, and the new number of groups.
 
     `make_lines` makes the lines of groups; `n_groups`: the number before. Statements that the angles depend on come
-    first, then the groups, then the rest. A section with lines that are not assignments of expressions, or without
-    angles, is returned unchanged.
+    first, then the groups, then the other statements. A cosine or sine whose angle itself depends on a cosine or sine
+    of the section stays single. A section with lines that are not assignments of expressions, or without angles, is
+    returned unchanged.
     """
     statements = [
         statement

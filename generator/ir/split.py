@@ -100,13 +100,13 @@ _MAX_REPEATED_LINES, _MIN_REPEATED_LINES = 60, 12  # of a part that is cut becau
 
 
 @dataclass(frozen=True)
-class TitledLine:
-    """A line with its section's title and the names that it reads; `movable`: it may stand in a part."""
+class LineInSection:
+    """A line with its section's title and the names that it reads; `is_movable`: it may stand in a part."""
 
     title: str
     line: Line
     reads: frozenset[str]  # the array that is written to included
-    movable: bool
+    is_movable: bool
 
     @property
     def defines(self) -> str:
@@ -122,84 +122,84 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     """
     if sum(len(section.statements) for section in kernel.sections) <= _MAX_LINES:
         return (kernel,)
-    titled_lines, copies = _list_lines(kernel)
-    pieces = _divide_lines(titled_lines, {name: titled_line.line for name, titled_line in copies.items()})
-    if not any(map(_is_part, pieces)):
+    section_lines, copies = _list_section_lines(kernel)
+    segments = _divide_lines(section_lines, {name: section_line.line for name, section_line in copies.items()})
+    if not any(map(_is_outlined, segments)):
         return (kernel,)
     added_arguments = (*_list_constant_locals(kernel), *_list_local_arrays(kernel))
-    array_name = _find_unused_name("passed", titled_lines)
-    index_of_passed = _number_passed_locals(pieces)
+    array_name = _find_unused_name("passed", section_lines)
+    index_of_passed = _number_passed_locals(segments)
     splitter = _Splitter(kernel, index_of_passed, array_name, copies, added_arguments)
-    pieces, functions = _outline_dependent_row_terms(pieces, splitter)
+    segments, functions = _outline_dependent_row_terms(segments, splitter)
     title = "values that pass between the parts"
     main_lines = [
-        TitledLine(title, Declare(Number.REAL, array_name, (max(len(index_of_passed), 1),)), frozenset(), False)
+        LineInSection(title, Declare(Number.REAL, array_name, (max(len(index_of_passed), 1),)), frozenset(), False)
     ]
     parts: list[Kernel] = []
     stored_names: set[str] = set()
     available: set[str] = set()  # locals of the calling function
-    for piece, later_read_names in zip(pieces, _find_names_read_later(pieces), strict=True):
-        if not _is_part(piece):
-            main_lines += piece
-            available |= {titled_line.defines for titled_line in piece}
+    for segment, later_read_names in zip(segments, _find_names_read_later(segments), strict=True):
+        if not _is_outlined(segment):
+            main_lines += segment
+            available |= {section_line.defines for section_line in segment}
             continue
-        passed_reads = {name_ for titled_line in piece for name_ in titled_line.reads if name_ in index_of_passed}
-        defined = {titled_line.defines for titled_line in piece}
+        passed_reads = {name_ for section_line in segment for name_ in section_line.reads if name_ in index_of_passed}
+        defined = {section_line.defines for section_line in segment}
         main_lines += [
             splitter.make_store_line(name)
             for name in sorted((passed_reads - defined) & available - stored_names, key=index_of_passed.__getitem__)
         ]
         stored_names |= passed_reads & available
         name = f"{kernel.name}_part_{len(parts) + 1}"
-        parts.append(splitter.make_part(name, piece))
-        main_lines += splitter.make_call_lines(name, piece, later_read_names)
+        parts.append(splitter.make_part(name, segment))
+        main_lines += splitter.make_call_lines(name, segment, later_read_names)
         available |= defined & later_read_names & index_of_passed.keys()
         stored_names |= defined & index_of_passed.keys()
     return (*parts, *functions, replace(kernel, sections=_group_sections(_insert_argument_copies(main_lines, copies))))
 
 
-def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[frozenset[str]]:
-    """Return for each piece (a part, or lines between parts) the names that later lines of the calling function read.
+def _find_names_read_later(segments: Sequence[Sequence[LineInSection]]) -> list[frozenset[str]]:
+    """Return for each segment (a part, or lines between parts) the names that later lines of the calling function read.
 
     Lines of later parts do not count: they read values of other parts from the array of passed values.
     """
     later_read_names = [frozenset[str]()]
-    for piece in reversed(pieces[1:]):
+    for segment in reversed(segments[1:]):
         names = later_read_names[-1]
         later_read_names.append(
-            names if _is_part(piece) else names.union(*(titled_line.reads for titled_line in piece))
+            names if _is_outlined(segment) else names.union(*(section_line.reads for section_line in segment))
         )
     return later_read_names[::-1]
 
 
-def _list_lines(kernel: Kernel) -> tuple[list[TitledLine], dict[str, TitledLine]]:
+def _list_section_lines(kernel: Kernel) -> tuple[list[LineInSection], dict[str, LineInSection]]:
     """Return all lines of a kernel in order, except copies of arguments, and these copies by the name of their local.
 
     Each part makes its own copy where it reads one. A line is movable if it is a statement or a test of a pivot, stands
     before any jump, and reads no name that only unmovable lines know.
     """
-    section_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
+    titles_and_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
     constant |= {argument.name for argument in _list_constant_locals(kernel)}
-    known_names = {line.declared_local for _, line in section_lines} | constant
+    known_names = {line.declared_local for _, line in titles_and_lines} | constant
     known_names |= {argument.name for argument in (*kernel.arguments, *_list_local_arrays(kernel))}
     unmovable_names = {
-        name for _, line in section_lines if not _is_movable_line(line) for name in line.reads | line.writes
+        name for _, line in titles_and_lines if not _is_movable_line(line) for name in line.reads | line.writes
     } - known_names
-    titled_lines: list[TitledLine] = []
-    copies: dict[str, TitledLine] = {}
+    section_lines: list[LineInSection] = []
+    copies: dict[str, LineInSection] = {}
     is_after_jump = False
-    for title, line in section_lines:
+    for title, line in titles_and_lines:
         reads = line.reads | line.writes
-        titled_line = TitledLine(
+        section_line = LineInSection(
             title, line, reads, _is_movable_line(line) and not is_after_jump and not reads & unmovable_names
         )
         is_after_jump = is_after_jump or isinstance(line, Jump)
         if _find_copied_argument(line) in constant:
-            copies[titled_line.defines] = titled_line
+            copies[section_line.defines] = section_line
         else:
-            titled_lines.append(titled_line)
-    return titled_lines, copies
+            section_lines.append(section_line)
+    return section_lines, copies
 
 
 def _is_movable_line(line: Line) -> bool:
@@ -232,139 +232,152 @@ def _list_local_arrays(kernel: Kernel) -> list[Argument]:
     return [make_output_argument(line.name) for line in lines if line.type is Number.REAL and len(line.sizes) == 1]
 
 
-def _divide_lines(titled_lines: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
-    """Return the lines in pieces: each run of movable lines divided into parts, other lines between them.
+def _divide_lines(section_lines: Sequence[LineInSection], copies: Mapping[str, Line]) -> list[list[LineInSection]]:
+    """Return the lines in segments: each sequence of movable lines divided into parts, other lines between them.
 
     A part has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES becomes unmovable and stays in the
     calling function. Within a run, lines are reordered (`_order_lines`). `copies`: the lines that copy arguments, by
     the name of their local.
     """
-    pieces = []
-    for movable, group in groupby(titled_lines, key=lambda titled_line: titled_line.movable):
+    segments = []
+    for is_movable, group in groupby(section_lines, key=lambda section_line: section_line.is_movable):
         lines = _order_lines(list(group))
-        if movable and len(lines) >= _MIN_PART_LINES:
-            pieces += _divide_movable_lines(lines, copies)
+        if is_movable and len(lines) >= _MIN_PART_LINES:
+            segments += _divide_movable_lines(lines, copies)
         else:
-            pieces.append([replace(titled_line, movable=False) for titled_line in lines])
-    return pieces
+            segments.append([replace(section_line, is_movable=False) for section_line in lines])
+    return segments
 
 
-def _divide_movable_lines(lines: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
+def _divide_movable_lines(lines: Sequence[LineInSection], copies: Mapping[str, Line]) -> list[list[LineInSection]]:
     """Return movable lines in parts: groups of lines that repeat, and the lines between them in parts of equal length.
 
     The latter have at most _MAX_PART_LINES lines.
     """
-    pieces = []
+    segments = []
     first = 0
-    shapes = [make_line_structure_key(titled_line.line, copies) for titled_line in lines]
+    shapes = [make_line_structure_key(section_line.line, copies) for section_line in lines]
     for length, repeats in divide_into_repeats(shapes, _MAX_REPEATED_LINES, _MIN_REPEATED_LINES):
         n_pieces = 1 if repeats else -(-length // _MAX_PART_LINES)
         size = -(-length // n_pieces)
-        pieces += [list(lines[k : min(k + size, first + length)]) for k in range(first, first + length, size)]
+        segments += [list(lines[k : min(k + size, first + length)]) for k in range(first, first + length, size)]
         first += length
-    return pieces
+    return segments
 
 
-def _is_part(piece: Sequence[TitledLine]) -> bool:
-    """Return whether a piece of lines becomes a function of its own: its lines are movable."""
-    return piece[0].movable
+def _is_outlined(segment: Sequence[LineInSection]) -> bool:
+    """Return whether a segment of lines becomes a function of its own: its lines are movable."""
+    return segment[0].is_movable
 
 
-def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, int]:
-    """Return an index in the array of passed values for every local that one piece computes and another reads.
+def _number_passed_locals(segments: Sequence[Sequence[LineInSection]]) -> dict[str, int]:
+    """Return an index in the array of passed values for every local that one segment computes and another reads.
 
-    Indices follow the order of computation. Two pieces that both stay in the calling function pass nothing.
+    Indices follow the order of computation. Two segments that both stay in the calling function pass nothing.
     """
     piece_of_local = {
-        titled_line.defines: k for k, piece in enumerate(pieces) for titled_line in piece if titled_line.defines
+        section_line.defines: k
+        for k, segment in enumerate(segments)
+        for section_line in segment
+        if section_line.defines
     }
     passed_names = {
         name
-        for k, piece in enumerate(pieces)
-        for titled_line in piece
-        for name in titled_line.reads
+        for k, segment in enumerate(segments)
+        for section_line in segment
+        for name in section_line.reads
         if name in piece_of_local
         and piece_of_local[name] != k
-        and (_is_part(piece) or _is_part(pieces[piece_of_local[name]]))
+        and (_is_outlined(segment) or _is_outlined(segments[piece_of_local[name]]))
     }
     return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
 
 
 def _outline_dependent_row_terms(
-    pieces: Sequence[Sequence[TitledLine]], splitter: _Splitter
-) -> tuple[list[list[TitledLine]], list[Kernel]]:
-    """Return (pieces, new functions); a new function computes the forces and right-hand sides for a vanished pivot.
+    segments: Sequence[Sequence[LineInSection]], splitter: _Splitter
+) -> tuple[list[list[LineInSection]], list[Kernel]]:
+    """Return (segments, new functions); a new function computes the forces and right-hand sides for a vanished pivot.
 
     In the calling function each of them would be a local that is alive over the calls of all parts, from any of which
     the code may be reached. Nothing is moved if one reads more than arguments and results of parts.
     """
-    available = {name for piece in pieces if _is_part(piece) for name in (titled_line.defines for titled_line in piece)}
+    available = {
+        name
+        for segment in segments
+        if _is_outlined(segment)
+        for name in (section_line.defines for section_line in segment)
+    }
     available &= splitter.index_of_passed.keys()
     available |= splitter.argument_copies.keys() | {argument.name for argument in splitter.kernel.arguments}
     functions: list[Kernel] = []
 
-    def replace_by_call(titled_line: TitledLine) -> TitledLine:
+    def replace_by_call(section_line: LineInSection) -> LineInSection:
         """Return a line of redundant equations with a call in place of the expressions that the new function computes.
 
         Other lines are returned unchanged. The new function is appended to `functions`.
         """
-        line = titled_line.line
+        line = section_line.line
         if not (isinstance(line, SolveDependentRows) and line.force):
-            return titled_line
+            return section_line
         arrays = {name: make_output_argument(name) for name in ("force", "gamma_stab")}
         values = zip(arrays.values(), (line.force, line.rhs), strict=True)
         stores = [Statement(array[k], value) for array, expressions in values for k, value in enumerate(expressions)]
         if not all(store.reads <= available for store in stores):
-            return titled_line
+            return section_line
         name = f"{splitter.kernel.name}_dependent"
         kernel = replace(splitter.kernel, arguments=(*splitter.kernel.arguments, *arrays.values()))
-        lines = [TitledLine("", store, store.reads | store.writes, True) for store in stores]
+        lines = [LineInSection("", store, store.reads | store.writes, True) for store in stores]
         new = replace(splitter, kernel=kernel)
         functions.append(new.make_part(name, lines))
         call = Call(name, tuple(Place(a.name) for a in new.list_arguments(lines)), (Place(splitter.array_name),))
         new_line = replace(line, force=(), rhs=(), call=call)
-        return replace(titled_line, line=new_line, reads=new_line.reads)
+        return replace(section_line, line=new_line, reads=new_line.reads)
 
-    return [[replace_by_call(titled_line) for titled_line in piece] for piece in pieces], functions
+    return [[replace_by_call(section_line) for section_line in segment] for segment in segments], functions
 
 
-def _find_unused_name(name: str, titled_lines: Sequence[TitledLine]) -> str:
-    """Return the name with underscores appended until no line of `titled_lines` reads or defines it."""
-    used_names = {read_name for titled_line in titled_lines for read_name in (*titled_line.reads, titled_line.defines)}
+def _find_unused_name(name: str, section_lines: Sequence[LineInSection]) -> str:
+    """Return the name with underscores appended until no line of `section_lines` reads or defines it."""
+    used_names = {
+        read_name for section_line in section_lines for read_name in (*section_line.reads, section_line.defines)
+    }
     while name in used_names:
         name += "_"
     return name
 
 
-def _order_lines(titled_lines: list[TitledLine]) -> list[TitledLine]:
+def _order_lines(section_lines: list[LineInSection]) -> list[LineInSection]:
     """Return the lines in an order in which each is near those that read its result.
 
     They are returned unchanged if a line reads an array that one of them writes.
     """
-    written_arrays = frozenset().union(*(titled_line.line.writes for titled_line in titled_lines))
-    if any(written_arrays & titled_line.line.reads for titled_line in titled_lines):
-        return titled_lines
+    written_arrays = frozenset().union(*(section_line.line.writes for section_line in section_lines))
+    if any(written_arrays & section_line.line.reads for section_line in section_lines):
+        return section_lines
     return [
-        titled_lines[k]
+        section_lines[k]
         for k in order_statements_near_readers(
-            [titled_line.reads for titled_line in titled_lines], [titled_line.defines for titled_line in titled_lines]
+            [section_line.reads for section_line in section_lines],
+            [section_line.defines for section_line in section_lines],
         )
     ]
 
 
-def _insert_argument_copies(titled_lines: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
+def _insert_argument_copies(
+    section_lines: Sequence[LineInSection], copies: dict[str, LineInSection]
+) -> list[LineInSection]:
     """Return the lines of the calling function with the copies of arguments inserted that it reads.
 
     Arguments are copied first of all, elements of arrays of sines and cosines after the line that fills the array. The
     reading line cannot copy them, because it may be in a block or after a label.
     """
-    read_names = frozenset[str]().union(*(titled_line.reads for titled_line in titled_lines))
-    needed_copies = [titled_line for name, titled_line in copies.items() if name in read_names]
-    filled_arrays = {name for titled_line in titled_lines for name in _find_filled_arrays(titled_line.line)}
-    result = [titled_line for titled_line in needed_copies if not titled_line.reads & filled_arrays]
-    for titled_line in titled_lines:
-        result.append(titled_line)
-        if filled := _find_filled_arrays(titled_line.line):
+    read_names = frozenset[str]().union(*(section_line.reads for section_line in section_lines))
+    needed_copies = [section_line for name, section_line in copies.items() if name in read_names]
+    filled_arrays = {name for section_line in section_lines for name in _find_filled_arrays(section_line.line)}
+    result = [section_line for section_line in needed_copies if not section_line.reads & filled_arrays]
+    for section_line in section_lines:
+        result.append(section_line)
+        if filled := _find_filled_arrays(section_line.line):
             result += [copy_ for copy_ in needed_copies if copy_.reads & filled]
     return result
 
@@ -381,74 +394,76 @@ class _Splitter:
     kernel: Kernel
     index_of_passed: dict[str, int]
     array_name: str
-    argument_copies: dict[str, TitledLine]
+    argument_copies: dict[str, LineInSection]
     added_arguments: tuple[Argument, ...]
 
-    def list_arguments(self, piece: Sequence[TitledLine]) -> tuple[Argument, ...]:
+    def list_arguments(self, segment: Sequence[LineInSection]) -> tuple[Argument, ...]:
         """Return the arguments of a part without the array of passed values: of the added ones those that it reads."""
-        names = frozenset[str]().union(*(titled_line.reads for titled_line in piece))
+        names = frozenset[str]().union(*(section_line.reads for section_line in segment))
         names = names.union(*(self.argument_copies[name].reads for name in names & self.argument_copies.keys()))
         return (*self.kernel.arguments, *(argument for argument in self.added_arguments if argument.name in names))
 
-    def make_store_line(self, name: str, title: str = "values for later parts") -> TitledLine:
+    def make_store_line(self, name: str, title: str = "values for later parts") -> LineInSection:
         """Return the line that stores the local `name` in its element of the array of passed values."""
         statement = Statement(Place(self.array_name, (self.index_of_passed[name],)), Place(name))
-        return TitledLine(title, statement, frozenset((name,)), False)
+        return LineInSection(title, statement, frozenset((name,)), False)
 
-    def make_load_line(self, name: str, title: str = "values from the part") -> TitledLine:
+    def make_load_line(self, name: str, title: str = "values from the part") -> LineInSection:
         """Return the line that reads the local `name` of another part from the array of passed values."""
         place = Place(self.array_name, (self.index_of_passed[name],))
-        return TitledLine(title, Statement(name, place), place.names, False)
+        return LineInSection(title, Statement(name, place), place.names, False)
 
-    def make_reading_line(self, name: str, title: str) -> TitledLine:
+    def make_reading_line(self, name: str, title: str) -> LineInSection:
         """Return the line that reads the local `name`: a copy of an argument, or a value of another part."""
         if copy_ := self.argument_copies.get(name):
-            return TitledLine(title, copy_.line, copy_.reads, copy_.movable)
+            return LineInSection(title, copy_.line, copy_.reads, copy_.is_movable)
         return self.make_load_line(name, title)
 
-    def make_part(self, name: str, piece: list[TitledLine]) -> Kernel:
-        """Return the piece of lines as a function `name`.
+    def make_part(self, name: str, segment: list[LineInSection]) -> Kernel:
+        """Return the segment of lines as a function `name`.
 
         It reads values of other parts from the array of passed values, executes its lines, and stores values that
         others read. It returns a status if it tests a pivot.
         """
-        defined = {titled_line.defines for titled_line in piece}
-        has_test = any(isinstance(titled_line.line, Guard) for titled_line in piece)
-        lines: list[TitledLine] = []
+        defined = {section_line.defines for section_line in segment}
+        has_test = any(isinstance(section_line.line, Guard) for section_line in segment)
+        lines: list[LineInSection] = []
         known_names = set(defined)
-        for titled_line in piece:
-            for name_ in sorted(titled_line.reads - known_names):
+        for section_line in segment:
+            for name_ in sorted(section_line.reads - known_names):
                 if name_ in self.argument_copies or name_ in self.index_of_passed:
-                    lines.append(self.make_reading_line(name_, titled_line.title))
+                    lines.append(self.make_reading_line(name_, section_line.title))
                     known_names.add(name_)
             lines.append(
-                replace(titled_line, line=replace(titled_line.line, jumps=False))
-                if isinstance(titled_line.line, Guard)
-                else titled_line
+                replace(section_line, line=replace(section_line.line, jumps=False))
+                if isinstance(section_line.line, Guard)
+                else section_line
             )
-            if titled_line.defines in self.index_of_passed:
-                lines.append(self.make_store_line(titled_line.defines, titled_line.title))
-        end_lines = [TitledLine("", Return(), frozenset(), False)] if has_test else []
+            if section_line.defines in self.index_of_passed:
+                lines.append(self.make_store_line(section_line.defines, section_line.title))
+        end_lines = [LineInSection("", Return(), frozenset(), False)] if has_test else []
         return Kernel(
             name,
             (f"A part of `{self.kernel.name}`, which calls it.",),
-            (*self.list_arguments(piece), make_output_argument(self.array_name)),
+            (*self.list_arguments(segment), make_output_argument(self.array_name)),
             _group_sections([*lines, *end_lines]),
             has_test,
             attribute="noinline",
             names=self.kernel.names,
         )
 
-    def make_call_lines(self, name: str, piece: list[TitledLine], later_read_names: frozenset[str]) -> list[TitledLine]:
+    def make_call_lines(
+        self, name: str, segment: list[LineInSection], later_read_names: frozenset[str]
+    ) -> list[LineInSection]:
         """Return the lines of the calling function that call part `name` and read values that it has stored.
 
         Read are those in `later_read_names`, the names that later lines of the calling function read. If the part tests
         pivots, a status other than 0 ends the function or jumps to the code for a vanishing pivot.
         """
-        arguments = tuple(Place(argument.name) for argument in self.list_arguments(piece))
+        arguments = tuple(Place(argument.name) for argument in self.list_arguments(segment))
         call = Call(name, arguments, (Place(self.array_name),))
-        tests = [titled_line.line for titled_line in piece if isinstance(titled_line.line, Guard)]
-        loaded = {titled_line.defines for titled_line in piece} & later_read_names & self.index_of_passed.keys()
+        tests = [section_line.line for section_line in segment if isinstance(section_line.line, Guard)]
+        loaded = {section_line.defines for section_line in segment} & later_read_names & self.index_of_passed.keys()
         loads = [self.make_load_line(local) for local in sorted(loaded, key=self.index_of_passed.__getitem__)]
         lines: list[Line] = [call]
         status_lines: list[Line] = []
@@ -456,18 +471,18 @@ class _Splitter:
             jumps = tests[0].jumps
             status = "pivot" if jumps else f"status_{name.rpartition('_')[2]}"
             lines, status_lines = [AssignStatus(call, status)], [ReturnIfFailed(status, jumps)]
-        title = piece[0].title
+        title = segment[0].title
         return [
-            *(TitledLine(title, line, frozenset(), False) for line in lines),
+            *(LineInSection(title, line, frozenset(), False) for line in lines),
             *loads,
-            *(TitledLine("values from the part", line, frozenset(), False) for line in status_lines),
+            *(LineInSection("values from the part", line, frozenset(), False) for line in status_lines),
         ]
 
 
-def _group_sections(titled_lines: Sequence[TitledLine]) -> tuple[Section, ...]:
+def _group_sections(section_lines: Sequence[LineInSection]) -> tuple[Section, ...]:
     """Return the lines as sections; successive lines with the same title form one section."""
     grouped = (
-        (title, tuple(titled_line.line for titled_line in group))
-        for title, group in groupby(titled_lines, key=lambda i: i.title)
+        (title, tuple(section_line.line for section_line in group))
+        for title, group in groupby(section_lines, key=lambda i: i.title)
     )
     return tuple(Section(title, statements) for title, statements in grouped)

@@ -220,7 +220,7 @@ class SolveDependentRows(Line):
 
 
 @dataclass(frozen=True)
-class Largest(Line):
+class MaxMagnitude(Line):
     """The largest magnitude of some values, ignoring NaN; it is not a switching point of the motion."""
 
     target: str
@@ -238,8 +238,8 @@ class Largest(Line):
 
 
 @dataclass(frozen=True)
-class LargestRow(Line):
-    """The number, from 1, of the value with the largest magnitude, stored in `row`."""
+class MaxMagnitudeRow(Line):
+    """The number, from 1, of the value with the largest magnitude, stored in the local `row`."""
 
     values: tuple[sp.Basic, ...]
     writes: ClassVar[Names] = frozenset(["row"])
@@ -270,7 +270,7 @@ class DeclareBranches(Line):
     """
 
     output_target: str
-    held: bool = True
+    may_be_frozen: bool = True
 
     @property
     def names(self) -> Names:
@@ -279,7 +279,7 @@ class DeclareBranches(Line):
         These are `branch`, the outputs for switching functions by `output_target`, and `discrete` if branches are held.
         """
         outputs = {"": [], "local": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
-        return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
+        return frozenset(["branch", *outputs, *(["discrete"] if self.may_be_frozen else [])])
 
 
 @dataclass(frozen=True)

@@ -29,11 +29,11 @@ def make_parameter_table_kernel(model: Model) -> Kernel:
     for index, entry in enumerate(model.parameter_table.entries.values()):
         comment = f"{entry.address}, from 0: {', '.join(entry.choice_words)}" if entry.choice_words else entry.address
         parameters.append(Statement(entry.symbol.name, ParameterOrDefault(index, entry.value), comment))
-        parameters.append(Statement(model.parameter_table.find_place(entry.symbol), entry.symbol))
+        parameters.append(Statement(model.parameter_table.find_storage_location(entry.symbol), entry.symbol))
     derived: list[Statement] = []
     for symbol, value in model.parameter_table.derived.items():
         derived.append(Statement(symbol.name, value, info[symbol].meaning))
-        derived.append(Statement(model.parameter_table.find_place(symbol), symbol))
+        derived.append(Statement(model.parameter_table.find_storage_location(symbol), symbol))
     return Kernel(
         "prepare",
         ("Fill all parameters of a run: given values or defaults, then derived parameters.",),

@@ -29,7 +29,7 @@ from gudgeon.generator.ir.kernels import (
 )
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
-from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnused, Return, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, MarkUnused, MaxMagnitudeRow, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
@@ -138,7 +138,7 @@ class DrivenLoopKernels:
         named_rows = zip(self.square.names, self.loops.rows, strict=True)
         phi = [builder.append_local(f"phi_{name}", row.phi) for name, row in named_rows]
         builder.begin_section("the largest")
-        builder.append_line(LargestRow(tuple(phi)))
+        builder.append_line(MaxMagnitudeRow(tuple(phi)))
         solvers = self.square.factorize(builder)
         builder.begin_section("Newton's step")
         newton = self.square.solve(builder, solvers, phi, "newton")

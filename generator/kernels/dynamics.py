@@ -87,7 +87,7 @@ def make_dynamics_kernel(
     _append_friction_forces(builder, kkt, x)
     _append_rigid_contact_accelerations(builder, kkt.system, x)
     if kkt.rows and not model.has_changing_constraints:
-        (append_fallback or _append_dependent_rows)(builder, kkt, b)
+        (append_fallback or _append_redundancy_handling)(builder, kkt, b)
     _append_powers(builder, kkt, prescribed_forces)
     builder.append_line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
@@ -272,11 +272,11 @@ def _compute_wall_penetration_acceleration(
     )
 
 
-def _append_dependent_rows(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _append_redundancy_handling(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the label and the code for a vanishing pivot, which calls engine/scene/singular.c.
 
-    Nothing is appended if no pivot may jump there. `right_sides`: generalized forces and right-hand sides of
-    equations, by number in the KKT matrix.
+    There constraint equations depend on each other. Nothing is appended if no pivot may jump there. `right_sides`:
+    generalized forces and right-hand sides of equations, by number in the KKT matrix.
     """
     if not builder.has_jumps:
         return

@@ -134,11 +134,11 @@ def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_ev
 
 def depends_on_state(kernel: Kernel) -> bool:
     """Return whether a function reads any coordinate or rate, not only time and parameters."""
-    return reads_coordinate_beyond(kernel, 0)
+    return reads_coordinate_from_index(kernel, 0)
 
 
-def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
-    """Return whether a kernel copies an element of q or v with an index of `count` or more to a local."""
+def reads_coordinate_from_index(kernel: Kernel, first_index: int) -> bool:
+    """Return whether a kernel copies an element of q or v with an index of at least `first_index` to a local."""
     values = [
         statement.value
         for section in kernel.sections
@@ -146,7 +146,7 @@ def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
         if isinstance(statement, Statement)
     ]
     places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
-    return any(place.path >= (count,) for place in places)
+    return any(place.path >= (first_index,) for place in places)
 
 
 def _make_output_statement(statement: Statement, switch_indices: Collection[int]) -> Statement | None:
@@ -171,13 +171,13 @@ _POWERS = range(1, 5)  # likewise, of what does
 
 @dataclass(frozen=True)
 class TimeTerms:
-    """Terms of time alone that may be transients. The first `pulses` may hide within a step of any motion.
+    """Terms of time alone that may be transients. The first `n_transients` may hide within a step of any motion.
 
     The others may do so only in steps during which the mechanism may be at rest.
     """
 
     kernel: Kernel | None = None  # None: there are none
-    pulses: int = 0
+    n_transients: int = 0
 
     @property
     def count(self) -> int:
@@ -187,22 +187,22 @@ class TimeTerms:
 
 
 def find_time_terms(dynamics: Kernel, motion_may_stop: bool) -> TimeTerms:
-    """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
+    """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss (transients).
 
-    `motion_may_stop`: stick or a rigid contact may hold the motion while forces vary. Sines and cosines then count
-    too; they come after the others. The result holds the number of the others as `pulses`, and the kernel of the first
+    `motion_may_stop`: stick or a rigid contact may hold the motion while forces vary. Sines and cosines then count too;
+    they come after the others. The result holds the number of the others, `n_transients`, and the kernel of the first
     MAX_TIME_TERMS terms, None if there are no terms.
     """
-    collector = _collect_terms(dynamics, False)
+    collector = _collect_time_terms(dynamics, False)
     terms = list(collector.terms)[:MAX_TIME_TERMS]
-    pulses = len(terms)
+    n_transients = len(terms)
     if motion_may_stop:
-        collector = _collect_terms(dynamics, True)
+        collector = _collect_time_terms(dynamics, True)
         terms = [*terms, *(term for term in collector.terms if term not in terms)][:MAX_TIME_TERMS]
-    return TimeTerms(_make_time_terms_kernel(dynamics, collector, terms) if terms else None, pulses)
+    return TimeTerms(_make_time_terms_kernel(dynamics, collector, terms) if terms else None, n_transients)
 
 
-def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
+def _collect_time_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
     """Return the collector of terms of time alone after it has read all statements of a right-hand side.
 
     `motion_may_stop`: sines and cosines count as terms too (`find_time_terms`).

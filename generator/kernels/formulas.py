@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.printing.str import StrPrinter
 
 from gudgeon.generator.equations.play import LawEquations
-from gudgeon.generator.symbols.symbols import strip_identifier
+from gudgeon.generator.symbols.symbols import get_document_name
 
 _WIDTH = 110
 _MEANINGS = {
@@ -51,7 +51,7 @@ def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[s
     at `_WIDTH` characters.
     """
     name_of_symbol = {
-        **{s: strip_identifier(s) for e in law.equations_by_name.values() for s in sp.sympify(e).free_symbols},
+        **{s: get_document_name(s) for e in law.equations_by_name.values() for s in sp.sympify(e).free_symbols},
         **names,
     }
     variables = {symbol.name for symbol in law.variables}

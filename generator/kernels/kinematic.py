@@ -7,7 +7,7 @@ import sympy as sp
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_locals
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, make_output_argument
-from gudgeon.generator.ir.statements import Largest, Return
+from gudgeon.generator.ir.statements import MaxMagnitude, Return
 from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
 
@@ -47,7 +47,7 @@ def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
     for k, (component, rate) in enumerate(zip(step, rates, strict=True)):
         builder.append_store(Place("step")[k], component)
         builder.append_store(Place("rates")[k], rate)
-    builder.append_line(Largest("worst", tuple(phi)))
+    builder.append_line(MaxMagnitude("worst", tuple(phi)))
     builder.append_line(Return())
     outs = (make_output_argument(name) for name in ("step", "rates", "worst"))
     return builder.build_kernel((*STATE[:2], PARAMETERS, *outs), status=True)
@@ -77,7 +77,7 @@ def _make_body_motion_kernel(system: System, closures: SquareSystem) -> Kernel:
     builder.begin_section("rates of the closures")
     named_rows = zip(closures.names, system.rows, strict=True)
     phi_dot = [builder.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
-    builder.append_line(Largest("worst", tuple(phi_dot)))
+    builder.append_line(MaxMagnitude("worst", tuple(phi_dot)))
     solvers = closures.factorize(builder)
     builder.begin_section("accelerations")
     a = closures.solve(builder, solvers, [row.gamma for row in system.rows], "second")

@@ -9,7 +9,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, make_input_argument, make_output_argument
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import Joint
 from gudgeon.generator.symbols.storage import Place
 
@@ -44,7 +44,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
             builder.append_store(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
         builder.append_store(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
-    for k, (name, (value, _)) in enumerate(find_element_series(model).items()):
+    for k, (name, (value, _)) in enumerate(list_force_element_series(model).items()):
         builder.append_store(Place("series")[k], value, name)
     builder.begin_section("energy")
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
@@ -57,7 +57,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
     return builder.build_kernel((*STATE, PARAMETERS, make_input_argument("lambda"), *results))
 
 
-def find_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
+def list_force_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
     """Return the output series of all force elements by name: {"coil.F": (expression, unit)}."""
     return {
         f"{name}.{series_name}": value
@@ -81,11 +81,11 @@ def _compute_reaction(
     type.
     """
     first, second = model.geometry.find_point(joint.first), model.geometry.find_point(joint.second)
-    kind = joint_types()[joint.kind]
+    kind = find_joint_types()[joint.kind]
     point = first if kind.reaction_at == "first" else second
     sign, bodies = 1, [second.body]
     if second.body is None:
-        other_bodies = [joint.options[name] for name in kind.third_bodies]  # a gear's carrier
+        other_bodies = [joint.options[name] for name in kind.third_body_fields]  # a gear's carrier
         sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in other_bodies)]
     wrench = [ZERO, ZERO, ZERO]
     for body in bodies:

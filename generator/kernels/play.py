@@ -25,7 +25,7 @@ from gudgeon.generator.solvers.contact_derivatives import (
     make_film_derivative_kernel,
     make_fraction_derivative_kernel,
     read_parameters_from_struct,
-    replace_stored_speed,
+    replace_speed_ratio,
 )
 from gudgeon.generator.symbols.storage import Place, Result
 
@@ -159,7 +159,7 @@ class JointFunctions:
     after_dry: Statements = ()
     before_film: Statements = ()
     after_film: Statements = ()
-    share: Statements = ()  # of the dry contact in the transition from film to contact
+    blend: Statements = ()  # the fraction of the dry contact in the transition from film to contact
     switch_indices: range = range(0)  # numbers of its switches
 
     @property
@@ -184,7 +184,10 @@ class JointFunctions:
 def make_joint_functions(model: Model, clearance: Clearance, shared_functions: SharedFunctions) -> JointFunctions:
     """Return a joint with play as calls of its laws and the statements before, between and after them.
 
-    The functions of its laws are added to `shared_functions`. The numbers of its switches are included.
+    The parts are those of JointFunctions: lever arms before the dry contact, its normal force with a contour, its
+    moment, the inputs of the film, its moment, the gap, and the blend of film and dry contact. A joint without dry
+    contact or film has no statements for it. The functions of its laws are added to `shared_functions`. The numbers of
+    its switches are included.
     """
     name, film = clearance.name, clearance.film
 
@@ -192,25 +195,27 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
         """Return the statements of equations, with conditional values at the centre and with frozen branches."""
         return _make_joint_statements(model, equations, name, _make_conditional_values(clearance, equations))
 
-    laws, parts = make_law_calls(model, clearance, shared_functions), {}
+    laws, statements_by_part = make_law_calls(model, clearance, shared_functions), {}
     if clearance.normal is not None:
-        parts["before_dry"] = make_contact_statements(
-            [replace_stored_speed(step) for step in contact.make_lever_arm_equations(clearance)]
+        statements_by_part["before_dry"] = make_contact_statements(
+            [replace_speed_ratio(step) for step in contact.make_lever_arm_equations(clearance)]
         )
-        parts["contour_normal_force"] = make_contact_statements(contact.make_contour_normal_force(clearance))
-        parts["after_dry"] = make_contact_statements(contact.make_dry_moment_equations(clearance))
+        statements_by_part["contour_normal_force"] = make_contact_statements(
+            contact.make_contour_normal_force(clearance)
+        )
+        statements_by_part["after_dry"] = make_contact_statements(contact.make_dry_moment_equations(clearance))
     if film is not None:
-        parts["before_film"] = make_contact_statements(contact.make_film_input_equations(clearance, film))
-        parts["after_film"] = make_contact_statements(contact.make_film_moment_equations(film))
+        statements_by_part["before_film"] = make_contact_statements(contact.make_film_input_equations(clearance, film))
+        statements_by_part["after_film"] = make_contact_statements(contact.make_film_moment_equations(film))
     gap = make_contact_statements(contact.make_gap_equations(clearance))
     if film is not None and clearance.normal is not None:
-        parts["share"] = (
+        statements_by_part["blend"] = (
             *((DEPTH_STATEMENT,) if clearance.mixed else ()),
             *make_contact_statements(contact.make_blend_equations(clearance, is_closed=True)),
         )
     indices = [switch.index for switch in model.symbols.switches.list_switches(name)]
     switch_range = range(min(indices, default=0), max(indices, default=-1) + 1)
-    return JointFunctions(clearance, laws, gap, switch_indices=switch_range, **parts)
+    return JointFunctions(clearance, laws, gap, switch_indices=switch_range, **statements_by_part)
 
 
 def _make_conditional_values(clearance: Clearance, equations: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:

@@ -179,7 +179,7 @@ class Program:
         return bool(self.methods and self.methods.complex_kernels)
 
     @property
-    def right_hand_side(self) -> list[Kernel]:
+    def right_hand_side_kernels(self) -> list[Kernel]:
         """Return the kernel of the right-hand side in absolute coordinates, then that of its event functions if used.
 
         The latter is used in the full formulation of a scene that is integrated, unless the event functions depend on

@@ -10,7 +10,7 @@ from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, make_input_argument, make_output_argument
-from gudgeon.generator.ir.statements import Largest, Return
+from gudgeon.generator.ir.statements import MaxMagnitude, Return
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_VANISHING
 from gudgeon.generator.symbols.derivatives import find_symbols
@@ -53,7 +53,7 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
     return builder.build_kernel(arguments, status=True), kkt
 
 
-def add_film_masses(system: System) -> System:
+def add_eccentricity_weights(system: System) -> System:
     """Return the system with the mass matrix M + κ Σ BᵀB for projections, B = ∂e/∂q of each joint with a film.
 
     κ is FILM_MASS_FACTOR times the mass of all bodies. Without films or equations the system itself is returned.
@@ -108,11 +108,11 @@ def make_constraint_correction_kernel(system: System, name: str = "closing_step"
     """Return the kernel of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
 
     Both use one factorization. Small masses are raised (`raise_small_masses`), and motions that squeeze a film are
-    weighted with a large mass (`add_film_masses`), so that e and ė nearly keep their values. `name`: the function's
-    name.
+    weighted with a large mass (`add_eccentricity_weights`), so that e and ė nearly keep their values. `name`: the
+    function's name.
     """
     metric_system = raise_small_masses(system)
-    kkt = KKT(add_film_masses(metric_system), system.rows)
+    kkt = KKT(add_eccentricity_weights(metric_system), system.rows)
     film_comment = (
         []
         if kkt.system is metric_system
@@ -141,7 +141,7 @@ def make_constraint_correction_kernel(system: System, name: str = "closing_step"
     for k, _ in enumerate(system.q):
         builder.append_store(Place("dq")[k], x[k])
         builder.append_store(Place("dv")[k], velocity_step[k])
-    builder.append_line(Largest("worst", tuple(phi.values())))
+    builder.append_line(MaxMagnitude("worst", tuple(phi.values())))
     builder.append_line(Return())
     outs = (make_output_argument(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held

@@ -14,7 +14,7 @@ from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Argument, make_in
 from gudgeon.generator.ir.statements import Jump, SolveDependentRows
 from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
-from gudgeon.generator.kernels.event_functions import make_event_function_kernel, reads_coordinate_beyond
+from gudgeon.generator.kernels.event_functions import make_event_function_kernel, reads_coordinate_from_index
 from gudgeon.generator.kernels.projection import make_projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import TreeEdge
@@ -50,7 +50,7 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
     """
     kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = make_dynamics_kernel(
-        system, kkt, DYNAMICS, _DOC, is_stabilized=False, append_fallback=_append_absolute_solution
+        system, kkt, DYNAMICS, _DOC, is_stabilized=False, append_fallback=_append_absolute_fallback
     )
     projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
     driven_loop_kernels = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
@@ -59,13 +59,13 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
     event_kernel = (
         None if is_driven else make_event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
-    if event_kernel and system.driven_loops and reads_coordinate_beyond(event_kernel, len(system.q)):
+    if event_kernel and system.driven_loops and reads_coordinate_from_index(event_kernel, len(system.q)):
         event_kernel = None  # rates() closes driven loops
     kernels = (*_make_closure_kernels(system), dynamics, *([event_kernel] if event_kernel else []), projection)
     return [remove_unused_locals(kernel) for kernel in kernels], kkt, driven_loop_kernels
 
 
-def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _append_absolute_fallback(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the code for a vanishing pivot: the absolute formulation solves and finds the dependent equations.
 
     Nothing is appended if no pivot may jump to it; `right_sides` is not used.
@@ -160,11 +160,11 @@ def _express_tree_coordinates(model: Model, system: TreeSystem, names: Sequence[
     for tree_edge in system.tree.edges:
         body = model.geometry.bodies[tree_edge.body]
         for name, value in zip(tree_edge.coordinates, (body.x, body.y), strict=False):
-            slides[name] = value if tree_edge.joint is None else _compute_slide(model, tree_edge)
+            slides[name] = value if tree_edge.joint is None else _compute_sliding_displacement(model, tree_edge)
     return [slides[name] if name in slides else model.geometry.bodies[name].theta for name in names]
 
 
-def _compute_slide(model: Model, tree_edge: TreeEdge) -> sp.Expr:
+def _compute_sliding_displacement(model: Model, tree_edge: TreeEdge) -> sp.Expr:
     """Return the displacement in m along a joint's axis: from its point on the first body to that on the second.
 
     The axis is fixed in the first body. `tree_edge`: the edge of the spanning tree that belongs to the joint; an edge
@@ -183,21 +183,26 @@ def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
     Each writes one value for each closure to `out`.
     """
 
-    def make_kernel(name: str, doc: str, reads_velocity: bool, get_value: Callable[[Row], sp.Expr]) -> Kernel:
-        """Return the kernel `name` that writes one value of each closure to `out`.
+    def make_closure_kernel(
+        name: str, doc: str, reads_velocity: bool, select_expression: Callable[[Row], sp.Expr]
+    ) -> Kernel:
+        """Return the kernel `name`, with the comment `doc`, that writes one value of each closure to `out`.
 
-        `reads_velocity`: the value depends on rates.
+        `select_expression`: returns the value of a closure as an expression. `reads_velocity`: the value depends on v;
+        without it the kernel has no argument v.
         """
         builder = KernelBuilder(system.model.symbols, name, [doc])
         builder.begin_section("rows")
         for r, row in enumerate(system.rows):
-            builder.append_store(Place("out")[r], get_value(row), row.name)
+            builder.append_store(Place("out")[r], select_expression(row), row.name)
         arguments: Sequence[Argument] = STATE if reads_velocity else STATE[:2]
         return builder.build_kernel((*arguments, PARAMETERS, make_output_argument("out")))
 
     return [
-        make_kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),
-        make_kernel(
+        make_closure_kernel(
+            "closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi
+        ),
+        make_closure_kernel(
             "closure_rates",
             "Rate Phi_q v - nu of the loop closures in tree coordinates.",
             True,

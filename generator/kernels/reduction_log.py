@@ -125,16 +125,19 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
     """
     drives = model.scene.mechanism.drives
 
-    def find_kind(affine: Affine) -> str:
-        """Return the kind of an angle: prescribed by drives, constant, or dependent on other angles."""
-        keys = [k for k in affine if k != CONSTANT]
+    def classify_angle(coefficients: Affine) -> str:
+        """Return the kind of an angle: prescribed by drives, constant, or dependent on other angles.
+
+        `coefficients`: those of the affine expression of the angle, by drive, angle or CONSTANT.
+        """
+        keys = [k for k in coefficients if k != CONSTANT]
         if any(k not in drives for k in keys):
             return message.FOLLOWING
         return message.PRESCRIBED if keys else message.CONSTANT
 
     owner = {row.name: row.owner for row in model.all_rows}
     for angle_kind in (message.PRESCRIBED, message.CONSTANT, message.FOLLOWING):
-        rows = {row: body for row, body in tree.solved.items() if find_kind(tree.angles[body]) == angle_kind}
+        rows = {row: body for row, body in tree.solved.items() if classify_angle(tree.angles[body]) == angle_kind}
         names = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
         yield Step(
             angle_kind,

@@ -175,7 +175,7 @@ def _remove_parameter_copies(kernel: Kernel) -> tuple[Section, ...]:
 
 
 def _make_arguments(kernel: Kernel, parameter_names: list[str], has_switches: bool) -> tuple[Argument, ...]:
-    """Return the arguments of a function with one argument for each named parameter instead of the struct.
+    """Return the arguments of a shared function, with one argument for each named parameter instead of the struct.
 
     The arguments for branches stay only if the function has switches; the number of the first switch then follows them.
     """
@@ -209,7 +209,10 @@ def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
     first_switch = kernel.first_switch or 0
 
     def rename_symbols(expression: sp.Basic) -> sp.Basic:
-        """Return an expression with its symbols named, and its switches counted, as in the printed text."""
+        """Return an expression as in the printed text: symbols named after locals, switches counted from the first.
+
+        That is the kernel's first switch.
+        """
         known_names = {
             s: kernel.names[key] for s in expression.free_symbols if (key := find_value_key(s)) in kernel.names
         }

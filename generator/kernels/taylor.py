@@ -35,7 +35,7 @@ SINGLE_RUN_GAIN = 0.9  # there, `auto` uses the series if a single run needs les
 # Step length of the series divided by that of dop853 at the tolerance 10^-MIN_TOL_EXPONENT, and the exponent of its
 # growth. The step length of the series does not depend on the tolerance.
 STEP_LENGTH_RATIO, STEP_LENGTH_GROWTH = 0.4, 0.1
-PULSES_LENGTH_FACTOR = 2.3  # on that ratio: at transient terms of time, dop853 rejects more steps
+TRANSIENT_LENGTH_FACTOR = 2.3  # on that ratio: at transient terms of time, dop853 rejects more steps
 # Times in ns of a step in a single run, fitted to chains of 1 to 6 links and Andrews' squeezer: of dop853, in addition
 # per closure equation and per square root of the operations of the right-hand side; of the series, in addition per
 # closure equation, per order, and per order and operation
@@ -72,8 +72,8 @@ def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
     try:
         system = _get_smooth_system(program)
         n_operations = _count_rhs_operations(program)
-        tolerance = predict_tolerance(
-            n_operations, len(program.integrated.system.rows), bool(program.time_terms.pulses)
+        tolerance = predict_crossover_tolerance(
+            n_operations, len(program.integrated.system.rows), bool(program.time_terms.n_transients)
         )
         if n_operations <= MAX_BUNDLED_OPERATIONS and tolerance > MAX_SINGLE_RUN_TOL:
             return _derive_series(system), tolerance
@@ -88,34 +88,35 @@ def _count_rhs_operations(program: Program) -> int:
     return next(kernel.n_operations for kernel in program.tree.unvectorized_kernels if kernel.name == DYNAMICS)
 
 
-def predict_tolerance(n_operations: int, n_rows: int, has_pulses: bool) -> float:
+def predict_crossover_tolerance(n_operations: int, n_rows: int, has_transients: bool) -> float:
     """Return the tolerance below which a cost model predicts less time for the series than for dop853; 0.0 for none.
 
-    n_operations: of the right-hand side; n_rows: closure equations; has_pulses: whether it has transient terms of time.
-    From 10^-SINGLE_RUN_EXPONENT on, the ratio r_1 of the times of single runs must be below SINGLE_RUN_GAIN; also at
-    looser ones with transients, which lanes do not accelerate. At other looser tolerances, at which batches are usual,
-    min(1, r_1) r_8 must be below 1 with the ratio r_8 in eight lanes. The comparison is made at powers of ten from
-    10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between two of them: 10^(0.5 − exponent).
+    n_operations: of the right-hand side; n_rows: closure equations; has_transients: whether it has transient terms of
+    time. From 10^-SINGLE_RUN_EXPONENT on, the ratio r_1 of the times of single runs must be below SINGLE_RUN_GAIN; also
+    at looser ones with transients, which lanes do not accelerate. At other looser tolerances, at which batches are
+    usual, min(1, r_1) r_8 must be below 1 with the ratio r_8 in eight lanes. The comparison is made at powers of ten
+    from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between two of them: 10^(0.5 − exponent).
     """
     tolerance = 0.0
     if n_operations > MAX_RHS_OPERATIONS:
         return tolerance
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
-        single, lanes = _predict_ratios(exponent, n_operations, n_rows, has_pulses)
-        single_decides = has_pulses or exponent >= SINGLE_RUN_EXPONENT
+        single, lanes = _predict_ratios(exponent, n_operations, n_rows, has_transients)
+        single_decides = has_transients or exponent >= SINGLE_RUN_EXPONENT
         is_cheaper = single < SINGLE_RUN_GAIN if single_decides else min(1.0, single) * lanes < 1.0
         tolerance = (tolerance or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
     return tolerance
 
 
-def _predict_ratios(exponent: int, n_operations: int, n_rows: int, has_pulses: bool) -> tuple[float, float]:
+def _predict_ratios(exponent: int, n_operations: int, n_rows: int, has_transients: bool) -> tuple[float, float]:
     """Return the predicted times of the series over those of dop853 at the tolerance 10^-exponent of `auto`.
 
-    The first is that of single runs, the second that of eight lanes. Other arguments as in `predict_tolerance`.
+    The first is that of single runs, the second that of eight lanes. Other arguments as in
+    `predict_crossover_tolerance`.
     """
     order = math.ceil(1.0 + TAYLOR_ORDERS_PER_E_FOLD * (exponent * math.log(10.0) + math.log(TAYLOR_TOLERANCE_RATIO)))
     length_ratio = STEP_LENGTH_RATIO * 10.0 ** (STEP_LENGTH_GROWTH * (exponent - MIN_TOL_EXPONENT))
-    length_ratio *= PULSES_LENGTH_FACTOR if has_pulses else 1.0
+    length_ratio *= TRANSIENT_LENGTH_FACTOR if has_transients else 1.0
     series = SERIES_STEP + SERIES_CLOSURE * n_rows + order * (SERIES_ORDER + SERIES_OPERATION * n_operations)
     dop853 = DOP853_STEP + DOP853_CLOSURE * n_rows + DOP853_ROOT_OF_OPERATIONS * math.sqrt(n_operations)
     lanes_series = (

@@ -8,7 +8,7 @@ from dataclasses import replace
 from gudgeon.errors import BadValueError
 from gudgeon.generator.field import PLACE, Field
 from gudgeon.generator.format.sections import BODY, PLAY_START, POINT, POINT_OF_GROUND, SECTIONS, START
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields, read_vector
@@ -138,7 +138,7 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
                 raise BadValueError(f"start.play.{joint}: no scene gives {joint} play", joint.where, hint)
             address = f"start.play.{joint}"
             is_slider = _is_slider(root.get_mapping("joints")[joint])
-            _check_play_keys(joint, node, is_slider)
+            _check_play_start_keys(joint, node, is_slider)
             values = read_fields(reader, node, PLAY_START.fields, FieldContext(address))
             if is_slider:
                 offset, tilt, offset_rate, tilt_rate = (
@@ -156,10 +156,10 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
 
 def _is_slider(node: Map) -> bool:
     """Return whether a joint, given by its node, is of a type whose play is that of a slider in its guide."""
-    return any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
+    return any(joint_type.play == "guide" and key in node for key, joint_type in find_joint_types().items())
 
 
-def _check_play_keys(joint: Text, node: Map, is_slider: bool) -> None:
+def _check_play_start_keys(joint: Text, node: Map, is_slider: bool) -> None:
     """Raise BadValueError if a journal's start has a key of a slider's, or the reverse.
 
     `node` is the start of the joint; `is_slider`: the joint is a slider in a guide.
@@ -223,7 +223,7 @@ def _read_guessed_point(
     }
 
 
-def _make_hints_for_other_parts(key: Text, node: object, field_of_part: Field) -> dict[str, str]:
+def _make_hints_for_other_start_keys(key: Text, node: object, field_of_part: Field) -> dict[str, str]:
     """Return hints for coordinates of another part of start: velocities under rates, positions under guess.
 
     `field_of_part` is the part in which `key` with the node `node` was found; coordinates of that part have no hint.
@@ -253,7 +253,7 @@ def _read_coordinates(reader: Reader, section: Map, field: Field, point_names: P
             if field.entry and field.entry.kind == PLACE and _is_point_of_body(key, point_names):
                 raise BadValueError(f"{key} is a point", node.where, "expected an approximate position: [x, y]")
             dimension = find_coordinate_dimension(
-                key, field.keys or {}, point_names, key.where, _make_hints_for_other_parts(key, node, field)
+                key, field.keys or {}, point_names, key.where, _make_hints_for_other_start_keys(key, node, field)
             )
             value = reader.read_quantity(node, f"start.{field.name}.{key}", dimension)
             coordinates[str(key)] = reader.register_quantity(

@@ -56,13 +56,13 @@ def _check_with_parameters(
     scene_parameters = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
     try:
-        parameter_numbers = evaluate_parameters({**parameters, **scene_parameters})
+        parameter_values = evaluate_parameters({**parameters, **scene_parameters})
     except InputError:
         return ()  # a cycle, reported already
     unreadable = (
-        _find_unreadable_numbers(reader, {**parameters, **scene_parameters}, parameter_numbers) if reader.errors else ()
+        _find_unreadable_numbers(reader, {**parameters, **scene_parameters}, parameter_values) if reader.errors else ()
     )
-    values = _evaluate_constant_numbers(reader, parameter_numbers)
+    values = _evaluate_constant_numbers(reader, parameter_values)
     errors: dict[str, list[tuple[str, str]]] = {}
 
     def record_error(address: str, message: str, hint: str) -> None:
@@ -79,7 +79,7 @@ def _check_with_parameters(
         if address in unreadable or quantity.operands or isinstance(quantity.value, Number):
             continue
         if ".parameters." not in address or address in values:
-            message, hint = _find_invalid_part(quantity, parameter_numbers, not math.isfinite(values.get(address, 0.0)))
+            message, hint = _find_invalid_part(quantity, parameter_values, not math.isfinite(values.get(address, 0.0)))
             if message:
                 record_error(address, f"{message}{context}", hint)
     for condition in reader.conditions:
@@ -100,7 +100,7 @@ def _check_with_parameters(
 def _find_unreadable_numbers(
     reader: Reader, parameters: Mapping[str, Quantity], ordered_names: Iterable[str]
 ) -> set[str]:
-    """Return parameters and addresses of numbers that could not be read, or that depend on such a number.
+    """Return parameters and addresses of numbers that could not be read (NaN), or that depend on such a number.
 
     `ordered_names`: names of the parameters, each after those that it depends on.
     """
@@ -147,7 +147,7 @@ def _is_caused_by_error(reader: Reader, quantity: Quantity, wrong_addresses: Con
 
 
 def _describe_users_of_expression(reader: Reader, address: str) -> str:
-    """Return a phrase that names the values that use a named expression.
+    """Return a phrase that names the values that use a named expression, such as ", and forces.coil.value uses it".
 
     "" for the address of another number, and for an expression that only other expressions use.
     """
@@ -163,24 +163,24 @@ def _describe_users_of_expression(reader: Reader, address: str) -> str:
 
 
 def _find_invalid_part(
-    quantity: Quantity, parameter_numbers: Mapping[str, float], is_not_finite: bool
+    quantity: Quantity, parameter_values: Mapping[str, float], is_not_finite: bool
 ) -> tuple[str, str]:
     """Return (message, hint) about a part of an expression that cannot be intended; ("", "") if there is none.
 
-    Tested are undefined parts, underflows, and ramps with a negative duration. `parameter_numbers`: values of
+    Tested are undefined parts, underflows, and ramps with a negative duration. `parameter_values`: values of
     parameters. `is_not_finite`: the whole value is not finite, which was reported; its undefined parts are then not
     searched.
     """
-    undefined_part = None if is_not_finite else find_undefined_part(quantity.value, parameter_numbers)
+    undefined_part = None if is_not_finite else find_undefined_part(quantity.value, parameter_values)
     if undefined_part is not None:
         return f"has a part that is {undefined_part}", FINITE
-    if (underflow := _find_underflow(quantity.value, parameter_numbers)) is not None:
+    if (underflow := _find_underflow(quantity.value, parameter_values)) is not None:
         hint = "expected products and powers of at least 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
         return f"has a part that is {underflow:g}, which loses digits by underflow", hint
     for call in _find_ramp_calls(quantity):
         duration = call.arguments[2]
-        if all(name.path in parameter_numbers for name in iterate_names(duration)):
-            duration_s = float(evaluate(duration, parameter_numbers.__getitem__))
+        if all(name.path in parameter_values for name in iterate_names(duration)):
+            duration_s = float(evaluate(duration, parameter_values.__getitem__))
             if duration_s < 0.0:
                 message = f"has a {call.function} with the negative duration {duration_s:.6g}"
                 return message, f"expected {call.function}(t, start, duration) with a duration above zero"
@@ -192,38 +192,41 @@ def _find_ramp_calls(quantity: Quantity) -> list[Call]:
     return [call for function in ("ramp", "smooth_step") for call in iterate_calls(quantity.value, function)]
 
 
-def _find_underflow(expr: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
+def _find_underflow(expr: Expr, parameter_values: Mapping[str, float]) -> float | None:
     """Return the first product, quotient or factor in an expression that underflows in binary64; None if there is none.
 
-    Sums are searched for them, but are not tested themselves. `parameter_numbers`: values of parameters by name.
+    Sums are searched for them, but are not tested themselves. `parameter_values`: values of parameters by name.
     """
     match expr:
         case Unary(operand=operand):
-            return _find_underflow(operand, parameter_numbers)
+            return _find_underflow(operand, parameter_values)
         case Call(arguments=inner):
             pass
         case Binary(operator=operator, left=left, right=right):
             inner = (left, right)
             for part in (expr, left, right) if operator in ("*", "/") else ():
-                if (value := _find_underflowing_value(part, parameter_numbers)) is not None:
+                if (value := _find_underflowing_value(part, parameter_values)) is not None:
                     return value
         case _:
             return None
-    return next((value for part in inner if (value := _find_underflow(part, parameter_numbers)) is not None), None)
+    return next((value for part in inner if (value := _find_underflow(part, parameter_values)) is not None), None)
 
 
-def _find_underflowing_value(part: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
-    """Return the value of a product, quotient or power of nonzero numbers if it underflows, else None.
+def _find_underflowing_value(expression: Expr, parameter_values: Mapping[str, float]) -> float | None:
+    """Return the value of a product, quotient or power of nonzero finite numbers if it underflows, else None.
 
-    None also if the part contains names without a known value.
+    An underflow is a magnitude below the smallest normal number. None also for other expressions, and if the expression
+    contains names without a known value.
     """
     if (
-        not isinstance(part, Binary)
-        or part.operator in ("+", "-")
-        or any(n.path not in parameter_numbers for n in iterate_names(part))
+        not isinstance(expression, Binary)
+        or expression.operator in ("+", "-")
+        or any(n.path not in parameter_values for n in iterate_names(expression))
     ):
         return None
-    value, left, right = (float(evaluate(x, parameter_numbers.__getitem__)) for x in (part, part.left, part.right))
+    value, left, right = (
+        float(evaluate(x, parameter_values.__getitem__)) for x in (expression, expression.left, expression.right)
+    )
     return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 

@@ -14,7 +14,15 @@ from gudgeon.generator.format.sections import BEARING, CONTACT, GUIDE
 from gudgeon.generator.format.shapes import make_missing_key_error
 from gudgeon.generator.kinds.laws.law import USER_LAWS, find_all_laws, find_laws_of_role
 from gudgeon.generator.kinds.laws.registered import find_law_key
-from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, make_onset_value
+from gudgeon.generator.mechanism import (
+    Bearing,
+    Contact,
+    Guide,
+    LawUse,
+    Material,
+    Quantity,
+    make_force_at_zero_penetration,
+)
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, list_field_names, read_fields, report_unknown_keys
 from gudgeon.generator.reader.materials import ELASTIC_KEYS, Materials
@@ -29,8 +37,9 @@ def order_by_inheritance(
 ) -> Iterator[tuple[Text, Map]]:
     """Yield the entries (name, node) of a section in topological order: each after the entry that it extends.
 
-    `kind` names the kind of entry in messages; `outside_parents` are parents outside the section. Errors are collected
-    for entries that extend an unknown name, or themselves through others; these and their descendants are left out.
+    The sections are `contacts` and `scenes`. `kind` names the kind of entry in messages; `outside_parents` are parents
+    outside the section. Errors are collected for entries that extend an unknown name, or themselves through others;
+    these and their descendants are left out.
     """
     by_name = {str(name): (name, entry) for name, entry in section.list_entries()}
     ordered = dict.fromkeys(
@@ -280,7 +289,7 @@ def _check_penetration_force(reader: Reader, force: Quantity) -> None:
     if "delta" not in locations:
         hint = "expected an expression such as 1e8 N/m * delta"
         raise ExpressionError(f"{force.address} does not depend on delta, the penetration", force.where, hint)
-    force_at_onset = reader.register_quantity(make_onset_value(force))
+    force_at_onset = reader.register_quantity(make_force_at_zero_penetration(force))
     for relation, bound in ((">=", -ZERO_FORCE_TOL), ("<=", ZERO_FORCE_TOL)):
         reader.add_condition(
             force_at_onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset"

@@ -221,7 +221,7 @@ def _convert_points_to_rows(items: Items, owner: str) -> list[Row]:
 
 
 def _read_table_bytes(reader: Reader, name: Text) -> bytes:
-    """Return the bytes of a table next to the mechanism file.
+    """Return the bytes of a table next to the mechanism file, at most MAX_TABLE_BYTES.
 
     Their SHA-256 is recorded in reader.tables. Raises InputError.
     """

@@ -68,7 +68,7 @@ def _read_named_expression(
     expression.
     """
     tree = choose_interpretation(text, tree, None, reader.find_number_dimension, reader.curves)
-    sizes[name] = _check_expression_size(name, tree, text.where, sizes)
+    sizes[name] = _compute_expression_size(name, tree, text.where, sizes)
     value = replace_names(
         tree, {other_name: expression.expanded_tree for other_name, expression in reader.expressions.items()}
     )
@@ -77,7 +77,7 @@ def _read_named_expression(
     return NamedExpression(tree, value, check_dimension(tree, None, dimensions.get, text.where), text.where)
 
 
-def _check_expression_size(
+def _compute_expression_size(
     name: str, tree: Expr, location: Location, sizes: Mapping[str, tuple[int, int]]
 ) -> tuple[int, int]:
     """Return the number of nodes and levels of an expression tree with all names replaced.

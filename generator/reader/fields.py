@@ -18,7 +18,7 @@ from gudgeon.generator.field import (
     Field,
 )
 from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.point_names import PointNames
@@ -126,7 +126,7 @@ def read_targets(
         phrase = format_count(len(items), singular, plural) if isinstance(value, Items) else describe_node(value)
         location = value.where if isinstance(value, Items) else kind.where
         hint = _format_targets_hint(target_kind, counts)
-        joint = joint_types().get(kind)
+        joint = find_joint_types().get(kind)
         if len(items) > 2 and joint and joint.is_pivot and all(isinstance(item, Text) for item in items):
             hint += f"; {_format_joints_hint(kind, items)}"
         raise BadValueError(f"{kind} has {phrase}", location, hint)

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from gudgeon.errors import BadNameError, BadValueError, ExpressionError, JoinError
 from gudgeon.generator.field import BODY, OF_CAM_ANGLE
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import ForceElement, Joint, Quantity
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, check_different_bodies, read_fields, read_kind, read_targets
@@ -32,7 +32,7 @@ def _make_play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
 
     The hint is an example with the file's first bearing, or guide for a slider, and its first contact.
     """
-    is_slider = any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
+    is_slider = any(joint_type.play == "guide" and key in node for key, joint_type in find_joint_types().items())
     dimensions_key = "guide" if is_slider else "bearing"
     dimensions_name, contact = (
         next(iter(root.get_mapping(f"{section}s")), _EXAMPLE_NAMES[section]) for section in (dimensions_key, "contact")
@@ -50,8 +50,8 @@ def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, 
     Errors of its numbers are collected. Raises an InputError if its bodies or its profile are not allowed.
     """
     address = f"joints.{name}"
-    kind, mistyped = read_kind(reader, node, joint_types(), address, hints)
-    joint_type = joint_types()[kind]
+    kind, mistyped = read_kind(reader, node, find_joint_types(), address, hints)
+    joint_type = find_joint_types()[kind]
     values = read_fields(
         reader, node, joint_type.fields, FieldContext(address, mistyped_keys=mistyped, point_names=point_names)
     )
@@ -116,8 +116,8 @@ def _read_force(reader: Reader, name: Text, node: Map, point_names: PointNames) 
     Raises an InputError if its targets are not allowed.
     """
     address = f"forces.{name}"
-    kind, mistyped = read_kind(reader, node, element_types(), address)
-    element_type = element_types()[kind]
+    kind, mistyped = read_kind(reader, node, find_element_types(), address)
+    element_type = find_element_types()[kind]
     values = read_fields(
         reader, node, element_type.fields, FieldContext(address, mistyped_keys=mistyped, point_names=point_names)
     )

@@ -35,9 +35,9 @@ class Materials:
             quantities = read_fields(reader, node, MATERIAL.fields, FieldContext(f"materials.{name}")).quantities
             self.by_name[str(name)] = Material(str(name), quantities)
         for needs in (ELASTIC_KEYS, ("density",)):
-            self._make_properties_replaceable(needs)
+            self._make_properties_parameters(needs)
 
-    def _make_properties_replaceable(self, properties: tuple[str, ...]) -> None:
+    def _make_properties_parameters(self, properties: tuple[str, ...]) -> None:
         """Make the values of materials that can be chosen run-time parameters, also those that are written as 0.
 
         `properties` are the properties that a use needs; nothing changes unless at least two materials have them all.

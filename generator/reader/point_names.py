@@ -26,7 +26,7 @@ class PointNames:
         self.bodies, self.ground = root["bodies"], root.get_mapping("ground")
 
     def list_points(self, body: str) -> list[str]:
-        """Return the names of a body's points: declared ones first, then the implied ones.
+        """Return the names of a body's points: declared ones and corners of `sides` first, then the implied ones.
 
         Raises KeyError if there is no such body. The ground has declared points only.
         """

@@ -7,8 +7,8 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.field import OF_CAM_ANGLE
 from gudgeon.generator.kinds.drives import DRIVES
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import CORNERS, find_joint_types
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reader.point_names import PointNames
 from gudgeon.generator.yaml import Map, Text
@@ -87,17 +87,17 @@ class ResultNames:
                 for kind in kinds
                 if kind in node
             }
-            for section, kinds in (("joints", joint_types()), ("drives", DRIVES), ("forces", element_types()))
+            for section, kinds in (("joints", find_joint_types()), ("drives", DRIVES), ("forces", find_element_types()))
         )
         self.unreadable_owners, self._joints = set(unreadable_owners), frozenset(joints)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTAL_RESULTS)
         self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY_RESULTS)
         self.owners |= {name: _find_drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
         self.owners |= dict.fromkeys(point_names.iterate_point_names(), _POINT_RESULTS)
-        self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
+        self.owners |= {name: dict(find_element_types()[kind].results) for name, kind in forces.items()}
         for name in point_names.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
-        guides = [name for name, kind in joints.items() if joint_types()[kind].play == "guide"]
+        guides = [name for name, kind in joints.items() if find_joint_types()[kind].play == "guide"]
         self.owners |= dict.fromkeys(joints, {**_JOINT_RESULTS, **_PLAY_RESULTS}) | dict.fromkeys(
             guides, _JOINT_RESULTS
         )

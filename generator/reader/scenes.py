@@ -11,7 +11,7 @@ from gudgeon.errors import BadValueError, CycleError, InputError, Location, comb
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
 from gudgeon.generator.format.shapes import make_missing_key_error
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.kinds.laws.law import find_all_laws, find_laws_of_role
 from gudgeon.generator.mechanism import (
     GROUND,
@@ -221,9 +221,9 @@ def _find_dimensions_key(joint: Text, play_node: Map, parts: SceneParts) -> str:
 
     Raises BadValueError if the joint cannot have play or the entry has the other key, MissingKeyError without the key.
     """
-    joint_type = joint_types()[parts.joints[joint].kind]
+    joint_type = find_joint_types()[parts.joints[joint].kind]
     if not joint_type.play:
-        joints_with_play = [name for name, other_key in parts.joints.items() if joint_types()[other_key.kind].play]
+        joints_with_play = [name for name, other_key in parts.joints.items() if find_joint_types()[other_key.kind].play]
         hint = (
             f"expected one of: {', '.join(joints_with_play)}"
             if joints_with_play

@@ -89,15 +89,15 @@ class Motions:
         """Return the rate of an affine expression: Σ coefficient · rate of the coordinate."""
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
-    def find_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    def find_derivative_rules(self, partials: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """Return the derivatives of a quantity by unknown coordinates and by t, as a mapping {variable: derivative}.
 
-        `columns`: its derivatives ∂/∂z by all coordinates z. The prescribed ones give the derivative by t, Σ ∂/∂z ż;
+        `partials`: its derivatives ∂/∂z by all coordinates z. The prescribed ones give the derivative by t, Σ ∂/∂z ż;
         it is absent if it is 0.
         """
         rules: dict[sp.Symbol, sp.Expr] = {}
         time_derivative = ZERO
-        for k, column in columns.items():
+        for k, column in partials.items():
             coordinate = self.coordinates[k]
             if coordinate.acceleration is None:
                 rules[coordinate.q] = column
@@ -105,35 +105,35 @@ class Motions:
                 time_derivative += column * coordinate.v
         return rules | ({self.t: time_derivative} if time_derivative != 0 else {})
 
-    def find_rate_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    def find_rate_derivative_rules(self, partials: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """Return the derivatives of a rate Σ ∂/∂z ż by unknown coordinates, their rates and t, as a mapping by symbol.
 
-        `columns`: the derivatives ∂/∂z of the quantity by all coordinates z, which depend on the motion themselves.
+        `partials`: the derivatives ∂/∂z of the quantity by all coordinates z, which depend on the motion themselves.
         """
-        variables = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
-        rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
+        variables = [self.coordinates[k].q for k in partials if self.coordinates[k].acceleration is None] + [self.t]
+        rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in partials.items()))
         rules = {q: value for q in variables if (value := self.symbols.differentiate(rate, q)) != 0}
-        for k, entry in columns.items():
+        for k, entry in partials.items():
             if self.coordinates[k].acceleration is None:
                 rules[self.coordinates[k].v] = entry
         return rules
 
-    def define_value(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for `value`, a quantity whose derivatives by coordinate are `columns`.
+    def define_value(self, base_name: str, value: sp.Expr, partials: Mapping[str, sp.Expr]) -> sp.Symbol:
+        """Return a new symbol for `value`, a quantity whose derivatives by coordinate are `partials`.
 
         `base_name`: base of its name. The symbol is entered in `symbols` with definition and derivative rules.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.derivative_rules[symbol] = self.find_derivative_rules(columns)
+        self.symbols.derivative_rules[symbol] = self.find_derivative_rules(partials)
         return symbol
 
-    def define_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for `value`, the velocity of a quantity whose derivatives by coordinate are `columns`.
+    def define_rate(self, base_name: str, value: sp.Expr, partials: Mapping[str, sp.Expr]) -> sp.Symbol:
+        """Return a new symbol for `value`, the velocity of a quantity whose derivatives by coordinate are `partials`.
 
         `base_name`: base of its name. The symbol is entered in `symbols` with definition and derivative rules.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.derivative_rules[symbol] = self.find_rate_derivative_rules(columns)
+        self.symbols.derivative_rules[symbol] = self.find_rate_derivative_rules(partials)
         return symbol
 
     def make_frame(self, name: str, affine: Affine) -> Frame:

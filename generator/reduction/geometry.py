@@ -112,15 +112,15 @@ class TreeGeometry(Geometry):
         for tree_edge in self.tree.edges:
             for name in tree_edge.coordinates:
                 self.slides[name] = motions.derive_coefficients(name, slides.get(name, {name: ONE}))
-                n_coordinates += self._add_coordinate(name, n_coordinates) if name not in slides else 0
+                n_coordinates += self._add_unknown_coordinate(name, n_coordinates) if name not in slides else 0
             if tree_edge.body in free_bodies:
-                n_coordinates += self._add_coordinate(tree_edge.body, n_coordinates)
+                n_coordinates += self._add_unknown_coordinate(tree_edge.body, n_coordinates)
         for tree_edge in self.tree.edges:
             self._set_frame(tree_edge.body)
         for tree_edge in self.tree.edges:
             self._set_base_point(tree_edge)
 
-    def _add_coordinate(self, name: str, index: int) -> int:
+    def _add_unknown_coordinate(self, name: str, index: int) -> int:
         """Add an unknown coordinate to `motions`, with symbols at an index in q and v; return 1.
 
         The result is the number of added coordinates. `name`: a body for an angle, else that of a slide.
@@ -185,7 +185,7 @@ class TreeGeometry(Geometry):
         if tree_edge.joint is None:
             unit_vectors = ((ONE, ZERO), (ZERO, ONE))
             terms = {(GROUND, name): unit for name, unit in zip(tree_edge.coordinates, unit_vectors, strict=True)}
-            base, body_point = self._make_free_base(terms), (ZERO, ZERO)
+            base, body_point = self._make_free_body_base(terms), (ZERO, ZERO)
         else:
             first, second = tree_edge.joint.first, tree_edge.joint.second
             parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)
@@ -197,7 +197,7 @@ class TreeGeometry(Geometry):
         self._base[body] = base, self.rotate_to_frame(body, body_point, f"{body}_base")
         self._derive_body_symbols(body)
 
-    def _make_free_base(self, terms: Terms) -> TreePoint:
+    def _make_free_body_base(self, terms: Terms) -> TreePoint:
         """Return the base point of a body that moves freely: the point (x, y) of the ground given by its two slides.
 
         `terms`: unit vectors along x and y, each with its slide.
@@ -330,23 +330,23 @@ class TreeGeometry(Geometry):
         )
         theta, omega = frame.theta + self._offset[body], frame.omega
 
-        def make_symbol(
-            base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr], is_rate: bool = False
+        def get_or_define_symbol(
+            base_name: str, value: sp.Expr, partials: Mapping[str, sp.Expr], is_rate: bool = False
         ) -> sp.Symbol:
             """Return a value unchanged if it is a symbol, else a new symbol for it with derivative rules.
 
-            `columns`: its derivatives by the tree coordinates. With `is_rate` the value is a velocity, and `columns`
+            `partials`: its derivatives by the tree coordinates. With `is_rate` the value is a velocity, and `partials`
             are those of the quantity whose velocity it is.
             """
             define_symbol = motions.define_rate if is_rate else motions.define_value
-            return value if value.is_Symbol else define_symbol(base_name, value, columns)
+            return value if value.is_Symbol else define_symbol(base_name, value, partials)
 
         x, y = (
-            make_symbol(f"{body}_{axis}", component, {k: w[i] for k, w in com.columns.items()})
+            get_or_define_symbol(f"{body}_{axis}", component, {k: w[i] for k, w in com.columns.items()})
             for i, (axis, component) in enumerate(zip("xy", com.position_xy, strict=True))
         )
         vx, vy = (
-            make_symbol(f"{body}_v{axis}", component, {k: w[i] for k, w in com.columns.items()}, True)
+            get_or_define_symbol(f"{body}_v{axis}", component, {k: w[i] for k, w in com.columns.items()}, True)
             for i, (axis, component) in enumerate(zip("xy", com.speed, strict=True))
         )
         self.bodies[body] = BodySymbols(
@@ -354,10 +354,10 @@ class TreeGeometry(Geometry):
             body_symbols.index,
             x,
             y,
-            make_symbol(f"{body}_theta", theta, frame.angle_coefficients),
+            get_or_define_symbol(f"{body}_theta", theta, frame.angle_coefficients),
             vx,
             vy,
-            make_symbol(f"{body}_omega", omega, frame.angle_coefficients, True),
+            get_or_define_symbol(f"{body}_omega", omega, frame.angle_coefficients, True),
             body_symbols.mass,
             body_symbols.inertia,
         )

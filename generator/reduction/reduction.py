@@ -15,7 +15,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Constraints, Row
 from gudgeon.generator.equations.geometry import BodySymbols, PointFrame
-from gudgeon.generator.equations.loads import PointLoad, build_applied_element, make_friction
+from gudgeon.generator.equations.loads import PointLoad, make_applied_element, make_friction
 from gudgeon.generator.equations.model import Model, make_event
 from gudgeon.generator.equations.play import make_clearances
 from gudgeon.generator.equations.system import Motion, PrescribedCoordinate, System
@@ -263,7 +263,10 @@ def _make_system(
     velocity_terms, weights = inertia.derive_velocity_terms(), inertia.derive_weights()
 
     def compute_applied_force(name: str) -> sp.Expr:
-        """Return the weight on a coordinate minus its velocity terms and minus M times prescribed accelerations."""
+        """Return the generalized force on a coordinate of gravity, of velocity terms and of prescribed accelerations.
+
+        The velocity terms (inertia forces) and M times the prescribed accelerations are subtracted from the weight.
+        """
         prescribed_forces = sum(
             (inertia.mass.get((name, k), ZERO) * coordinate.acceleration for k, coordinate in prescribed.items()), ZERO
         )
@@ -313,7 +316,7 @@ def _make_tree_model(
         for name, play in model.scene.play.items()
         for clearance in make_clearances(mechanism.joints[name], play, geometry, geometry.parameter_table)
     )
-    elements = {e.name: build_applied_element(e, geometry, t) for e in mechanism.forces.values()}
+    elements = {e.name: make_applied_element(e, geometry, t) for e in mechanism.forces.values()}
     coordinate_pairs = [(c.q, c.v) for c in geometry.motions.coordinates.values() if c.acceleration is None]
     frictions = tuple(
         make_friction(name, e.loads.slip, coordinate_pairs, t, symbols) for name, e in elements.items() if e.loads.slip

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import Joint
 
 Point = tuple[str, str]  # body, point
@@ -40,7 +40,7 @@ class SharedPoint:
     @staticmethod
     def list_pair_rows(joint: Joint) -> list[str]:
         """Return the names of the constraint equations by which a joint makes its two points coincide."""
-        return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
+        return [f"{joint.name}.{row}" for row in find_joint_types()[joint.kind].positioning_rows]
 
     def find_connecting_pairs(self, tree_joints: Iterable[Joint], compute_cost: Callable[[Joint], int]) -> list[Joint]:
         """Return the cheapest pairs that connect the points which the tree leaves unconnected (Kruskal's algorithm).
@@ -93,7 +93,7 @@ def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
     """
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:
-        if joint_types()[joint.kind].holds_points:
+        if find_joint_types()[joint.kind].has_coincident_points:
             first_group, second_group = (groups.get(point, []) for point in find_end_points(joint))
             merged = [*first_group, *(j for j in second_group if j not in first_group), joint]
             for point in {p for j in merged for p in find_end_points(j)}:
@@ -101,7 +101,7 @@ def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
     shared_points = []
     for group in {tuple(j.name for j in group): group for group in groups.values()}.values():
         points = frozenset(p for joint in group for p in find_end_points(joint))
-        pivots = [j for j in group if joint_types()[j.kind].is_pivot]
+        pivots = [j for j in group if find_joint_types()[j.kind].is_pivot]
         if pivots and len(points) == len(group) + 1 >= 3:
             shared_points.append(SharedPoint(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
     return shared_points

@@ -18,7 +18,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
 from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute_coordinate
 from gudgeon.generator.reduction.shared_points import SharedPoint, find_shared_points
@@ -39,7 +39,7 @@ class TreeEdge:
     @property
     def slides(self) -> bool:
         """Return whether the joint positions the body along an axis only: the edge then adds a coordinate."""
-        return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
+        return self.joint is not None and len(find_joint_types()[self.joint.kind].positioning_rows) == 1
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -56,7 +56,7 @@ class TreeEdge:
         """Return the names of the constraint equations that the tree edge satisfies by itself; none without a joint."""
         if self.joint is None:
             return ()
-        return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
+        return tuple(f"{self.joint.name}.{row}" for row in find_joint_types()[self.joint.kind].positioning_rows)
 
 
 def find_path_from_root(tree_edges: Iterable[TreeEdge], body: str) -> list[TreeEdge]:
@@ -225,9 +225,10 @@ class OperationEstimate:
         return self._negligible_inertia[key]
 
     def find_closing_pairs(self, tree_edges: tuple[TreeEdge, ...]) -> list[Joint]:
-        """Return the pairs of bodies, as joints, that connect multiple joints in addition to the pairs of the tree.
+        """Return the pairs of bodies, as joints, that close the points that several bodies share (multiple joints).
 
-        Pairs whose equations contain few coordinates are preferred (`SharedPoint.find_connecting_pairs`).
+        They connect the bodies of such a point that the pairs of the tree do not connect. Pairs whose equations contain
+        few coordinates are preferred (`SharedPoint.find_connecting_pairs`).
         """
         paths: dict[str, list[TreeEdge]] = {}
         for tree_edge in tree_edges:
@@ -409,7 +410,7 @@ def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
 
         A joint with a slide also needs bodies that turn together.
         """
-        rows = joint_types()[joint.kind].carries
+        rows = find_joint_types()[joint.kind].positioning_rows
         if not rows or not all(f"{joint.name}.{row}" in row_names for row in rows):
             return False
         return len(rows) == 2 or find_angle_coefficients(joint.first.body) == find_angle_coefficients(joint.second.body)

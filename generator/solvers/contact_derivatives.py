@@ -181,7 +181,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
         ratio, {base: ratio_slope * rate for base, rate in tangents.get_tangent(contact.deltadot).items()}
     )
     for step in contact.make_lever_arm_equations(clearance):
-        derivative_builder.append_assignment(replace_stored_speed(step))
+        derivative_builder.append_assignment(replace_speed_ratio(step))
     derivative_builder.begin_section("contact")
     extra_variables = [
         _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.optional_variables
@@ -207,7 +207,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
     return derivative_builder.finish_kernel([*forces, *(step.symbol for step in moments), *friction_results.values()])
 
 
-def replace_stored_speed(step: Assignment) -> Assignment:
+def replace_speed_ratio(step: Assignment) -> Assignment:
     """Return the equation of `ratio`, the clipped δ̇/δ̇⁻, with the local `unclipped` for the quotient.
 
     The local is 1 while the contact is open. Other equations are returned unchanged.

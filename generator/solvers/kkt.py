@@ -367,7 +367,8 @@ class KKT:
         """Append a jump to the code for vanishing pivots if elimination leaves nearly no inertia of the angle k.
 
         The bound is LIGHT_PIVOT times its entry in `inertias_of_angles`; nothing is appended for a coordinate without
-        one. `pivot` is its own pivot times those in `earlier_pivots`, by which the bound is multiplied too.
+        one. `pivot` is its own pivot times those in `earlier_pivots`, by which the bound is multiplied too. The status
+        is the number of equations and friction elements plus the position of the angle in `inertias_of_angles`, from 1.
         """
         if k in self.inertias_of_angles:
             status = len(self.rows) + len(self.frictions) + 1 + list(self.inertias_of_angles).index(k)

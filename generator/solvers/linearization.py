@@ -35,7 +35,7 @@ Pair = tuple[int, int]  # node (coordinates, equations, frictions, internal stat
 
 
 @dataclass
-class LinearizedParts:
+class JacobianEntries:
     """Non-zeros of the linearization by (node, column), of the powers' derivatives by (power, column or node).
 
     A node is the number of a coordinate, then of an equation, a friction element, an internal state. Columns are
@@ -83,7 +83,7 @@ class Linearization:
                 (dependent.second, dependent.third),
             ):
                 self.tangents.store_tangent(symbol, {self.t: rate})
-        self.parts = LinearizedParts()
+        self.jacobians = JacobianEntries()
         self.a = [self._make_constant_symbol(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
         self.multiplier = [
             self._make_constant_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
@@ -92,7 +92,7 @@ class Linearization:
         self.rates: list[sp.Expr] = []  # of the internal states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
-    def derive_parts(self) -> LinearizedParts:
+    def derive_jacobian_entries(self) -> JacobianEntries:
         """Append all statements of the linearization to the function and return its non-zero entries by part.
 
         Parts are M, Φ_q and the derivatives of equations and powers by q, v, internal states and t. Called once.
@@ -115,7 +115,7 @@ class Linearization:
         for state_index, rate in zip(self.z.values(), self.rates, strict=True):
             self._add_derivatives(self.n + self.m + len(self.system.frictions) + state_index, -rate, 1)
         self._add_powers()
-        return self.parts
+        return self.jacobians
 
     def _make_constant_symbol(self, base_name: str, place: Place) -> sp.Symbol:
         """Return a new symbol that is read at the storage location `place` and held constant in derivatives."""
@@ -185,13 +185,13 @@ class Linearization:
         return clearance.list_point_loads(values[:2], moments)
 
     def _add_constraint_equations(self) -> None:
-        """Add the derivatives of the constraint equations to the parts: Φ_q, V, Q and R2_t.
+        """Add the derivatives of the constraint equations to `jacobians`: Φ_q, V, Q and R2_t.
 
         R2 = Φ_q a − γ + 2α Φ̇ + β² Φ at constant accelerations a; V = R2_v − 2α Φ_q and Q = R2_q − β² Φ_q.
         """
         if self.system.rows:
             self.builder.begin_section("constraints")
-        two_alpha, beta_squared = self._derive_gains()
+        two_alpha, beta_squared = self._derive_baumgarte_gains()
         for index, row in enumerate(self.system.rows):
             node = self.n + index
             self._add_jacobian(node, row.phi_q)
@@ -201,40 +201,44 @@ class Linearization:
             derivative_by_q = self._select_entries(self.tangents.compute_gradient(residual), self.q)
             for k, value in self._select_entries(self.tangents.compute_gradient(phi_dot), self.q).items():
                 derivative_by_q[k] = derivative_by_q.get(k, ZERO) + two_alpha * value
-            self.parts.by_q |= {(node, k): value for k, value in derivative_by_q.items() if value != 0}
+            self.jacobians.by_q |= {(node, k): value for k, value in derivative_by_q.items() if value != 0}
             derivatives_by_t = [
                 self.tangents.compute_gradient(x).get(self.t, ZERO) for x in (residual, phi_dot, row.phi)
             ]
             if (
                 value := derivatives_by_t[0] + two_alpha * derivatives_by_t[1] + beta_squared * derivatives_by_t[2]
             ) != 0:
-                self.parts.by_t[node] = value
+                self.jacobians.by_t[node] = value
 
-    def _derive_gains(self) -> tuple[sp.Expr, sp.Expr]:
+    def _derive_baumgarte_gains(self) -> tuple[sp.Expr, sp.Expr]:
         """Return (2α, β²) of Baumgarte's terms 2α Φ̇ + β² Φ as derived parameters, in 1/s and 1/s²."""
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive_parameter
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
     def _add_jacobian(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
-        """Add the entries of an equation's Jacobian, by coordinate, to the part `phi_q`.
+        """Add the entries of an equation's Jacobian, by coordinate, to `jacobians.phi_q`.
 
         `node`: number of the equation.
         """
-        self.parts.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
+        self.jacobians.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
 
     def _add_derivatives(self, node: int, value: sp.Expr, sign: int, velocities_only: bool = False) -> None:
-        """Add `sign` times the derivatives of `value`, a term of a residual, by v, q, z and t to the parts.
+        """Add `sign` times the derivatives of `value`, a term of a residual, by v, q, z and t to `jacobians`.
 
         z are the internal states of laws. With `velocities_only` only those by v are added. `node`: number of the
         equation.
         """
         tangent = self.tangents.compute_gradient(value)
-        for part, index_of in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
+        for part, index_of in (
+            (self.jacobians.by_v, self.v),
+            (self.jacobians.by_q, self.q),
+            (self.jacobians.by_z, self.z),
+        ):
             if index_of is self.v or not velocities_only:
                 part |= {(node, k): sign * entry for k, entry in self._select_entries(tangent, index_of).items()}
         if not velocities_only and self.t in tangent:
-            self.parts.by_t[node] = sign * tangent[self.t]
+            self.jacobians.by_t[node] = sign * tangent[self.t]
 
     @staticmethod
     def _select_entries(tangent: Tangent, index_of: Mapping[sp.Symbol, int]) -> dict[int, sp.Expr]:
@@ -245,7 +249,7 @@ class Linearization:
         return {index_of[symbol]: value for symbol, value in tangent.items() if symbol in index_of}
 
     def _add_friction_equations(self, residual: list[sp.Expr]) -> None:
-        """Add the equations of stick, the forces of slip and their power to the parts; stick or slip is held constant.
+        """Add the equations of stick, the forces of slip and their power to `jacobians`; stick or slip is constant.
 
         `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: at stick the current one, held
         constant, at slip −sign(v) · kinetic force. A symbol for each element, 1 at stick and 0 at slip, is appended to
@@ -268,9 +272,9 @@ class Linearization:
             self._add_derivatives(node, stick_residual + two_alpha * friction.slip.v, 1)
             for q, entry in friction.jacobian.items():
                 k = self.q[q]
-                remainder = self.parts.by_v.pop((node, k), ZERO) - two_alpha * entry  # V has no 2α Φ_q
+                remainder = self.jacobians.by_v.pop((node, k), ZERO) - two_alpha * entry  # V has no 2α Φ_q
                 if remainder := sp.expand(remainder):
-                    self.parts.by_v[node, k] = remainder
+                    self.jacobians.by_v[node, k] = remainder
                 residual[k] += entry * (sign * kinetic - force)
             self._add_friction_power(node, friction, force - sign * kinetic, stick)
 
@@ -282,24 +286,26 @@ class Linearization:
         """
         velocity = friction.slip.v + friction.slip.speed
         self.powers[1] += force * velocity
-        self.parts.power_row[1, node] = -stick * velocity
+        self.jacobians.power_row[1, node] = -stick * velocity
         for prescribed in self.system.prescribed:  # power of friction that a drive supplies
             prescribed_velocity = prescribed.rate * self.symbols.differentiate_definitions(
                 friction.slip.v, prescribed.rate
             )
             if prescribed_velocity != 0:
                 self.powers[0] -= prescribed_velocity * force
-                self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * prescribed_velocity
+                self.jacobians.power_row[0, node] = (
+                    self.jacobians.power_row.get((0, node), ZERO) + stick * prescribed_velocity
+                )
 
     def _add_motion_equations(self, residual: list[sp.Expr]) -> None:
-        """Add M and the derivatives by q, v, z, t of R1 = M a + Φ_qᵀ λ − g (equations of motion) to the parts.
+        """Add M and the derivatives by q, v, z, t of R1 = M a + Φ_qᵀ λ − g (equations of motion) to `jacobians`.
 
         z are the internal states of laws. `residual`, by coordinate, holds −g and is completed in place.
         """
         self.builder.begin_section("coordinates")
         for (i, j), value in self.system.mass.items():
             for k, column in sorted({(i, j), (j, i)}):
-                self.parts.mass[k, column] = value
+                self.jacobians.mass[k, column] = value
                 residual[k] += value * self.a[column]
         for multiplier, row in zip(self.multiplier, self.system.rows, strict=True):
             for q, entry in row.phi_q.items():
@@ -308,7 +314,7 @@ class Linearization:
             self._add_derivatives(k, value, 1)
 
     def _add_powers(self) -> None:
-        """Add the derivatives of the powers by q, v, internal states and t to the parts, and append their statements.
+        """Add the derivatives of the powers by q, v, internal states and t to `jacobians`, and append their statements.
 
         The power of the drives also gets those by multipliers and accelerations. Nothing is added if all powers are 0.
         """
@@ -317,17 +323,17 @@ class Linearization:
         self.builder.begin_section("powers")
         for index, power in enumerate(self.powers):
             tangent = self.tangents.compute_gradient(power)
-            self.parts.power_q |= {(index, k): value for k, value in self._select_entries(tangent, self.q).items()}
-            self.parts.power_v |= {(index, k): value for k, value in self._select_entries(tangent, self.v).items()}
-            self.parts.power_z |= {(index, k): value for k, value in self._select_entries(tangent, self.z).items()}
+            self.jacobians.power_q |= {(index, k): value for k, value in self._select_entries(tangent, self.q).items()}
+            self.jacobians.power_v |= {(index, k): value for k, value in self._select_entries(tangent, self.v).items()}
+            self.jacobians.power_z |= {(index, k): value for k, value in self._select_entries(tangent, self.z).items()}
             if self.t in tangent:
-                self.parts.power_t[index] = tangent[self.t]
+                self.jacobians.power_t[index] = tangent[self.t]
         for row_index, row in enumerate(self.system.rows):
             if row.nu != 0:
-                self.parts.power_row[0, self.n + row_index] = -row.nu
+                self.jacobians.power_row[0, self.n + row_index] = -row.nu
         for prescribed in self.system.prescribed:  # a drive also moves the inertia coupled with the accelerations
             for k, mass in prescribed.mass.items():
-                self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + prescribed.rate * mass
+                self.jacobians.power_row[0, k] = self.jacobians.power_row.get((0, k), ZERO) + prescribed.rate * mass
 
 
 _INPUT_NAMES = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")

@@ -1,7 +1,7 @@
 """Functions for implicit methods: Newton's matrix of the equations of motion, and solutions of linear systems with it.
 
 J is the Jacobian of y' = f(t, y) with y = (q, v, works, internal states z) and η = h γ of the method. Eliminating
-u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
+u_q = η (r_q + u_v) leaves, with the Jacobians of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
     [M + η R1_v + η² R1_q   Φ_qᵀ] [u_v ]   [ η (M r_v − η R1_q r_q − s R1_t)                         ]
     [Φ_q + η/κ (V + η Q)    0   ] [η μ ] = [ η/κ (Φ_q (r_v − η β² r_q) − η Q r_q − s R2_t)           ]
     u_w = η (r_w + P_q u_q + P_v u_v + P_z u_z + P_λ μ + s P_t),   μ the multipliers' own change.
@@ -11,8 +11,7 @@ At η = 0 the matrix is the KKT matrix, with 1 in the rows of z. It is factorize
 chosen on its symmetric pattern, internal states first, a constraint equation only after the coordinates in it. A
 coordinate that an equation gives by others (dependent_coordinates.py) is the unknown of that equation, and its
 multiplier that of the coordinate's equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving
-Ordinary Differential Equations II, Springer (1996), IV.8 and VII.
-L U is printed as statements, pivot by pivot.
+Ordinary Differential Equations II, Springer (1996), IV.8 and VII. L U is printed as statements.
 """
 
 from __future__ import annotations
@@ -42,7 +41,7 @@ from gudgeon.generator.ir.signatures import (
 from gudgeon.generator.ir.statements import Call, Declare, DeclareParameters, Guard, Return, Statement
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
-from gudgeon.generator.solvers.linearization import Linearization, LinearizedParts, Pair
+from gudgeon.generator.solvers.linearization import JacobianEntries, Linearization, Pair
 from gudgeon.generator.solvers.pivots import SINGULAR, is_number_or_signed_symbol
 from gudgeon.generator.solvers.sparsity import choose_elimination
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
@@ -83,10 +82,10 @@ class Newton:
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _make_linearize_kernel(self) -> Kernel:
-        """Return the kernel `linearize`, which writes all parts of the linearization at a state to `lin->value`.
+        """Return the kernel `linearize`, which writes the entries of all Jacobians at a state to `lin->value`.
 
-        It also copies the parameters to `lin`. Sets `parts` (entries as symbols that read `lin->value`), `stick_flags`
-        (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_entry_tables`).
+        It also copies the parameters to `lin`. Sets `jacobians` (entries as symbols that read `lin->value`),
+        `stick_flags` (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_entry_tables`).
         """
         builder = self._begin_function(
             "linearize",
@@ -97,9 +96,9 @@ class Newton:
             ],
         )
         linearization = Linearization(self.system, builder)
-        parts = linearization.derive_parts()
+        jacobians = linearization.derive_jacobian_entries()
         builder.begin_section("results")
-        self.parts = self._store_parts(builder, parts, linearization.tangents)
+        self.jacobians = self._store_entries(builder, jacobians, linearization.tangents)
         self.stick_flags = [
             self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
         ]
@@ -115,8 +114,8 @@ class Newton:
         )
         return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
-    def _store_parts(self, builder: KernelBuilder, parts: LinearizedParts, tangents: Tangents) -> LinearizedParts:
-        """Return the parts of the linearization with each value stored in the array `lin->value`, once up to its sign.
+    def _store_entries(self, builder: KernelBuilder, entries: JacobianEntries, tangents: Tangents) -> JacobianEntries:
+        """Return the entries of the Jacobians with each value stored in the array `lin->value`, once up to its sign.
 
         Values of the result are the symbols that read the array. `tangents` stores shared denominators and powers.
         """
@@ -125,13 +124,13 @@ class Newton:
             """Return the symbol of a value that is stored in the pool; `name`: base of its name."""
             return self.values.store_value(builder, tangents.store_powers(value), name)
 
-        def store_part(
+        def store_matrix(
             prefix: str,
             part: Mapping[Pair, sp.Expr],
             row_names: Sequence[str],
             column_names: Sequence[str] = self.names,
         ) -> dict[Pair, sp.Expr]:
-            """Return the stored entries of one part, named after it and its row and column."""
+            """Return the stored entries of one matrix, named `prefix` and its row and column."""
             return {
                 (i, j): store_value(value, f"{prefix}_{row_names[i]}_{column_names[j]}")
                 for (i, j), value in part.items()
@@ -139,18 +138,18 @@ class Newton:
 
         states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
-        return LinearizedParts(
-            store_part("mass", parts.mass, self.names),
-            store_part("phi", parts.phi_q, self.names),
-            store_part("by_q", parts.by_q, self.names),
-            store_part("by_v", parts.by_v, self.names),
-            store_part("by_z", parts.by_z, self.names, states),
-            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
-            store_part("power_q", parts.power_q, works),
-            store_part("power_v", parts.power_v, works),
-            store_part("power_z", parts.power_z, works, states),
-            store_part("power", parts.power_row, works),
-            {w: store_value(x, f"power_t_{w}") for w, x in parts.power_t.items()},
+        return JacobianEntries(
+            store_matrix("mass", entries.mass, self.names),
+            store_matrix("phi", entries.phi_q, self.names),
+            store_matrix("by_q", entries.by_q, self.names),
+            store_matrix("by_v", entries.by_v, self.names),
+            store_matrix("by_z", entries.by_z, self.names, states),
+            {k: store_value(x, f"by_t_{self.names[k]}") for k, x in entries.by_t.items()},
+            store_matrix("power_q", entries.power_q, works),
+            store_matrix("power_v", entries.power_v, works),
+            store_matrix("power_z", entries.power_z, works, states),
+            store_matrix("power", entries.power_row, works),
+            {w: store_value(x, f"power_t_{w}") for w, x in entries.power_t.items()},
         )
 
     def _make_entry_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
@@ -159,7 +158,7 @@ class Newton:
         An entry is sign times element `index` of `lin->value`. Rows are nodes (coordinates, equations, frictions,
         internal states) or works; columns are those of y = (q, v, works, internal states).
         """
-        parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
+        entries, n, z = self.jacobians, self.n, 2 * self.n + N_WORK
 
         def make_table(part: Mapping[Pair, sp.Expr], first_column: int = 0) -> list[tuple[int, int, int, int]]:
             """Return (row, column, index, sign) of the entries of one part."""
@@ -169,12 +168,12 @@ class Newton:
             ]
 
         return {
-            "phi_q": make_table(parts.phi_q),
-            "residual": make_table(parts.by_q) + make_table(parts.by_v, n) + make_table(parts.by_z, z),
-            "residual_t": make_table({(node, 0): value for node, value in parts.by_t.items()}),
-            "power": make_table(parts.power_q) + make_table(parts.power_v, n) + make_table(parts.power_z, z),
-            "power_row": make_table(parts.power_row),
-            "power_t": make_table({(w, 0): value for w, value in parts.power_t.items()}),
+            "phi_q": make_table(entries.phi_q),
+            "residual": make_table(entries.by_q) + make_table(entries.by_v, n) + make_table(entries.by_z, z),
+            "residual_t": make_table({(node, 0): value for node, value in entries.by_t.items()}),
+            "power": make_table(entries.power_q) + make_table(entries.power_v, n) + make_table(entries.power_z, z),
+            "power_row": make_table(entries.power_row),
+            "power_t": make_table({(w, 0): value for w, value in entries.power_t.items()}),
         }
 
     def _make_matrix_entries(self, builder: KernelBuilder) -> dict[Pair, sp.Expr]:
@@ -184,21 +183,21 @@ class Newton:
         motion or constraint equations is M or Φ_q plus s (V + η Q), with the factor s of `_find_eta_factor`. Numbers
         and symbols stay, other entries become locals.
         """
-        parts = self.parts
-        self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        jacobians = self.jacobians
+        self._append_eta_factors(builder, {self._find_eta_factor(i) for i, _ in {**jacobians.by_v, **jacobians.by_q}})
         first = self.first_state
         builder.begin_section("matrix")
-        entries: dict[Pair, sp.Expr] = dict(parts.mass)
-        for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
+        entries: dict[Pair, sp.Expr] = dict(jacobians.mass)
+        for node, k in sorted({*jacobians.by_v, *jacobians.by_q, *jacobians.phi_q}):
             index = node, k
-            coefficient = parts.by_v.get(index, ZERO) + ETA * parts.by_q.get(index, ZERO)
-            value = parts.mass.get(index, ZERO) if node < self.n else parts.phi_q.get(index, ZERO)
+            coefficient = jacobians.by_v.get(index, ZERO) + ETA * jacobians.by_q.get(index, ZERO)
+            value = jacobians.mass.get(index, ZERO) if node < self.n else jacobians.phi_q.get(index, ZERO)
             entries[index] = self._name_entry(builder, index, value + self._find_eta_factor(node) * coefficient)
         entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
-        for (node, state), derivative in parts.by_z.items():
+        for (node, state), derivative in jacobians.by_z.items():
             index = node, first + state
             entries[index] = self._name_entry(builder, index, sp.Integer(node == index[1]) + ETA * derivative)
-        return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
+        return entries | {(k, node): value for (node, k), value in jacobians.phi_q.items()}
 
     def _name_entry(self, builder: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
         """Return an entry of Newton's matrix as a new local; a number or ± a symbol is returned unchanged.
@@ -217,8 +216,8 @@ class Newton:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
-    def _append_scales(self, builder: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
-        """Append the factors η/κ of constraints and of sticks to the function, those that are in `scales`.
+    def _append_eta_factors(self, builder: KernelBuilder, factors: Collection[sp.Symbol]) -> None:
+        """Append the factors η/κ of constraints and of sticks to the function, those that are in `factors`.
 
         η = h γ of the method. κ = 1 + 2αη + β²η² for constraints (Baumgarte's α and β), 1 + 2αη for sticks, with α of
         `derive_stick_baumgarte_gain`. The section "eta/kappa" begins also without a factor.
@@ -227,9 +226,9 @@ class Newton:
         derive = self.model.parameter_table.derive_parameter
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         builder.begin_section("eta/kappa")
-        if ETA_ROW in scales:
+        if ETA_ROW in factors:
             builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
-        if ETA_STICK in scales:
+        if ETA_STICK in factors:
             builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_baumgarte_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
@@ -256,8 +255,8 @@ class Newton:
             tuple(map(frozenset, pattern)),
             self.n,
             self.n + self.m,
-            first=(*states, *self.first.order),
-            partner=self.first.partner,
+            leading_nodes=(*states, *self.first.order),
+            partner_by_node=self.first.partner,
         )
         builder.begin_section("L U")
         factors = Factors(self, builder, entries)
@@ -314,7 +313,7 @@ class Newton:
         r and u are vectors (q, v, works, internal states); s is a number. It calls the function of
         `_make_substitute_kernel`.
         """
-        n, parts = self.n, self.parts
+        n, jacobians = self.n, self.jacobians
         states = range(self.first_state, self.nodes)
         builder = self._begin_function(
             "newton_solve",
@@ -323,24 +322,24 @@ class Newton:
                 f"{', internal states' if states else ''}.",
             ],
         )
-        self._append_scales(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
+        self._append_eta_factors(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
         builder.begin_section("right-hand side")
         builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
-        coordinates = sorted({k for node, k in parts.phi_q if node < n + self.m})
+        coordinates = sorted({k for node, k in jacobians.phi_q if node < n + self.m})
         shifted = {
             k: builder.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k])
             for k in coordinates
         }
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
-        for (i, k), value in parts.mass.items():
+        for (i, k), value in jacobians.mass.items():
             b[i].append(value * r_v[k])
-        for (i, k), value in parts.phi_q.items():
+        for (i, k), value in jacobians.phi_q.items():
             b[i].append(value * (shifted[k] if i < n + self.m else r_v[k]))
-        for (i, k), value in parts.by_q.items():
+        for (i, k), value in jacobians.by_q.items():
             b[i].append(-ETA * value * r_q[k])
-        for i, value in parts.by_t.items():
+        for i, value in jacobians.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
             b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
@@ -371,14 +370,15 @@ class Newton:
     def _compute_work_change(self, w: int) -> sp.Expr:
         """Return u_w, the component of the solution u for work w, as an expression in r, the other u, and x.
 
-        x is the result of the substitution: u_v by coordinate, followed by η μ by equation.
+        u_w = η (r_w + s P_t + P_q u_q + P_v u_v + P_z u_z) + P_a (x_v − η r_v) + P_λ x_λ. x is the result of the
+        substitution: u_v by coordinate, followed by η μ by equation.
         """
-        parts, n = self.parts, self.n
-        terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
-        for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
+        jacobians, n = self.jacobians, self.n
+        terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]
+        for part, first in ((jacobians.power_q, 0), (jacobians.power_v, n), (jacobians.power_z, 2 * n + N_WORK)):
             terms += [value * PlaceSymbol(Place("u")[first + k]) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
-        for (i, node), value in parts.power_row.items():
+        for (i, node), value in jacobians.power_row.items():
             start_rate = ETA * PlaceSymbol(Place("r")[n + node]) if node < n else ZERO
             changes += [value * (PlaceSymbol(Place("x")[node]) - start_rate)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)

@@ -53,8 +53,8 @@ class Factor:
 def append_friction_mode(builder: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
     """Return two locals for the mode of a friction element: (1 at stick and else 0, sign of the slip).
 
-    The sign is 1 or −1, and 0 without slip. `name`, `index`: the element and its number; the mode is read from the
-    discrete state.
+    The sign is 1 or −1, and 0 without slip; both are 0 in mode 2 (held). `name`, `index`: the element and its number;
+    the mode is read from the discrete state.
     """
     mode_place = DISCRETE["mode"][index]
     mode = builder.append_local(f"mode_{name}", mode_place, "0 stick, 1 or -1 the sign of the slip, 2 held")

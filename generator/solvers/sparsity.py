@@ -46,20 +46,22 @@ class Elimination:
 def choose_elimination(
     pattern: Pattern,
     n_coordinates: int,
-    last: int | None = None,
-    pairs: Mapping[int, int] = NO_PAIRS,
-    first: Sequence[int] = (),
-    partner: Mapping[int, int] = NO_PAIRS,
+    first_trailing_node: int | None = None,
+    row_pairs: Mapping[int, int] = NO_PAIRS,
+    leading_nodes: Sequence[int] = (),
+    partner_by_node: Mapping[int, int] = NO_PAIRS,
 ) -> Elimination:
     """Return the cheapest of a few greedy elimination orders of the KKT matrix, whose graph is `pattern`.
 
-    Nodes below `n_coordinates` are coordinates, the others equations; nodes from `last` on come after all others (None:
-    no node). Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
-    coordinates are. Their 2 × 2 pivot then vanishes where two bodies are in line, so that the caller must test it.
-    Nodes in `first` come before all others, in their order; one with a `partner`, an equation with a constant entry in
-    it, is eliminated together with that equation.
+    Nodes below `n_coordinates` are coordinates, the others equations; nodes from `first_trailing_node` on come after
+    all others (None: no node). Equations in `row_pairs` (each with its partner, in the same coordinates) may be
+    eliminated once two of their coordinates are. Their 2 × 2 pivot then vanishes where two bodies are in line, so that
+    the caller must test it. The `leading_nodes` come before all others, in their order; a node in `partner_by_node` is
+    eliminated together with its partner, an equation with a constant entry in it.
     """
-    elimination = find_elimination_below(math.inf, pattern, n_coordinates, last, pairs, first, partner)
+    elimination = find_elimination_below(
+        math.inf, pattern, n_coordinates, first_trailing_node, row_pairs, leading_nodes, partner_by_node
+    )
     assert elimination is not None
     return elimination
 
@@ -68,24 +70,26 @@ def find_elimination_below(
     limit: float,
     pattern: Pattern,
     n_coordinates: int,
-    last: int | None = None,
-    pairs: Mapping[int, int] = NO_PAIRS,
-    first: Sequence[int] = (),
-    partner: Mapping[int, int] = NO_PAIRS,
+    first_trailing_node: int | None = None,
+    row_pairs: Mapping[int, int] = NO_PAIRS,
+    leading_nodes: Sequence[int] = (),
+    partner_by_node: Mapping[int, int] = NO_PAIRS,
 ) -> Elimination | None:
     """Return the elimination of `choose_elimination`, or None if every order needs more than `limit` products.
 
     The cost of the result may exceed `limit`, since it includes divisions. An order is abandoned as soon as its
     products exceed the cost of the best order so far, so that dense candidates of large mechanisms cost little time.
     """
-    if first:
-        in_order = partial(_eliminate_in_order, first, pattern, n_coordinates, last, pairs, partner)
-        eager = in_order(True, limit) if partner else None
+    if leading_nodes:
+        in_order = partial(
+            _eliminate_in_order, leading_nodes, pattern, n_coordinates, first_trailing_node, row_pairs, partner_by_node
+        )
+        eager = in_order(True, limit) if partner_by_node else None
         plain = in_order(False, min(limit, eager.cost) if eager else limit)
         return min((order for order in (plain, eager) if order), key=lambda order: order.cost, default=None)
     if _compute_min_products(pattern) > limit:
         return None
-    end = len(pattern) if last is None else last
+    end = len(pattern) if first_trailing_node is None else first_trailing_node
 
     def compute_degree_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least degree; nodes from `end` on come last."""
@@ -127,7 +131,7 @@ def find_elimination_below(
         compute_path_first_key,
     )
     best: Elimination | None = None
-    for equation_pairs in (NO_PAIRS, pairs)[: 1 + bool(pairs)]:
+    for equation_pairs in (NO_PAIRS, row_pairs)[: 1 + bool(row_pairs)]:
         for key in keys:
             candidate = _eliminate_greedily(pattern, n_coordinates, key, equation_pairs, best.cost if best else limit)
             if candidate and (best is None or candidate.cost < best.cost):
@@ -138,42 +142,47 @@ def find_elimination_below(
 def _compute_min_products(pattern: Pattern) -> int:
     """Return a lower bound of the products of any elimination of a pattern, from the least degree d of its nodes.
 
-    The first pivot couples its d or more neighbours with each other, so that the elimination of these has at least
-    d − 1, d − 2, …, 0 entries in its columns.
+    It is Σ k (k + 3)/2 for k = 0 … d: the first pivot couples its d or more neighbours with each other, so that the
+    elimination of these has at least d − 1, d − 2, …, 0 entries in its columns.
     """
     degree = min(map(len, pattern), default=0)
     return sum(k * (k + 3) // 2 for k in range(degree + 1))
 
 
 def _eliminate_in_order(
-    first: Sequence[int],
+    leading_nodes: Sequence[int],
     pattern: Pattern,
     n_coordinates: int,
-    last: int | None,
-    pairs: Mapping[int, int],
-    partner: Mapping[int, int],
+    first_trailing_node: int | None,
+    row_pairs: Mapping[int, int],
+    partner_by_node: Mapping[int, int],
     eager: bool,
     limit: float,
 ) -> Elimination | None:
-    """Return the elimination of the nodes in `first` with their partners, then of the others by the best greedy order.
+    """Return the elimination of `leading_nodes` with their partners, then of the others by the best greedy order.
 
-    Return None if the products exceed `limit`. `eager`: a coordinate that occurs in no remaining equation of `first`
-    follows at once. Along a chain of bodies from its end, each is then coupled only with the one that carries it. The
-    other arguments are those of `choose_elimination`.
+    Return None if the products exceed `limit`. `eager`: a coordinate that occurs in no remaining equation of
+    `leading_nodes` follows at once. Along a chain of bodies from its end, each is then coupled only with the one that
+    carries it. The other arguments are those of `choose_elimination`.
     """
     graph = [set(neighbours) for neighbours in pattern]
     columns = dict[int, set[int]]()
-    remaining_rows, products = {*partner.values(), *(node for node in first if n_coordinates <= node < len(pattern))}, 0
-    for node in first:
-        products += _eliminate_node(node, partner.get(node), graph, columns)
+    remaining_rows, products = (
+        {*partner_by_node.values(), *(node for node in leading_nodes if n_coordinates <= node < len(pattern))},
+        0,
+    )
+    for node in leading_nodes:
+        products += _eliminate_node(node, partner_by_node.get(node), graph, columns)
         if products > limit:
             return None
-        remaining_rows -= {node, partner.get(node)}
-        ready_coordinates = sorted(columns[node]) if eager and (node in partner or node >= n_coordinates) else ()
+        remaining_rows -= {node, partner_by_node.get(node)}
+        ready_coordinates = (
+            sorted(columns[node]) if eager and (node in partner_by_node or node >= n_coordinates) else ()
+        )
         for candidate in ready_coordinates:
             if (
                 candidate < n_coordinates
-                and candidate not in partner
+                and candidate not in partner_by_node
                 and candidate not in columns
                 and not graph[candidate] & remaining_rows
             ):
@@ -184,10 +193,10 @@ def _eliminate_in_order(
         limit - products,
         tuple(frozenset(index_of[candidate] for candidate in graph[node]) for node in remaining),
         sum(node < n_coordinates for node in remaining),
-        None if last is None else sum(node < last for node in remaining),
+        None if first_trailing_node is None else sum(node < first_trailing_node for node in remaining),
         {
             index_of[r]: index_of[partner_row]
-            for r, partner_row in pairs.items()
+            for r, partner_row in row_pairs.items()
             if r in index_of and partner_row in index_of
         },
     )
@@ -200,7 +209,7 @@ def _eliminate_in_order(
         remaining[candidate]: tuple(remaining[i] for i in column)
         for candidate, column in remaining_elimination.structure.items()
     }
-    n_single = sum(node not in partner and node not in partner.values() for node in columns)
+    n_single = sum(node not in partner_by_node and node not in partner_by_node.values() for node in columns)
     return Elimination(
         order, structure, remaining_elimination.products + products, remaining_elimination.depth + n_single
     )
@@ -230,12 +239,12 @@ def _eliminate_greedily(
     pattern: Pattern,
     n_coordinates: int,
     key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
-    pairs: Mapping[int, int],
+    row_pairs: Mapping[int, int],
     limit: float,
 ) -> Elimination | None:
     """Return the greedy elimination that takes the node with the least `key` next; None above `limit` products.
 
-    An equation is ready once all its coordinates are eliminated, one in `pairs` (of two equations) once two are.
+    An equation is ready once all its coordinates are eliminated, one in `row_pairs` (of two equations) once two are.
     `key(graph, node, depth)`: graph has the neighbours of each node, depth is the number of divisions that must precede
     the node.
     """
@@ -244,7 +253,7 @@ def _eliminate_greedily(
         sum(neighbours < n_coordinates for neighbours in pattern[equation]) if equation >= n_coordinates else 0
         for equation in range(len(pattern))
     ]
-    for equation in pairs:
+    for equation in row_pairs:
         n_missing[equation] = min(n_missing[equation], 2)
     remaining = set(range(len(pattern)))
     depths = [0] * len(pattern)  # consecutive divisions that must precede each node
@@ -255,9 +264,9 @@ def _eliminate_greedily(
         value, node = heapq.heappop(heap)
         if keys.get(node) != value:
             continue  # its key has changed since it was pushed
-        if pairs.get(node) in remaining:  # its partner comes next, before everything else
-            heapq.heappush(heap, (_FIRST_KEY, pairs[node]))
-            keys[pairs[node]] = _FIRST_KEY
+        if row_pairs.get(node) in remaining:  # its partner comes next, before everything else
+            heapq.heappush(heap, (_FIRST_KEY, row_pairs[node]))
+            keys[row_pairs[node]] = _FIRST_KEY
         neighbours = graph[node]
         order.append(node)
         columns[node] = neighbours
@@ -270,7 +279,10 @@ def _eliminate_greedily(
         for neighbour in neighbours:
             graph[neighbour].discard(node)
             adds_division = (
-                node >= n_coordinates and pairs.get(node) not in remaining or node < n_coordinates and depths[node] > 0
+                node >= n_coordinates
+                and row_pairs.get(node) not in remaining
+                or node < n_coordinates
+                and depths[node] > 0
             )
             depths[neighbour] = max(depths[neighbour], depths[node] + adds_division)
             graph[neighbour] |= neighbours
@@ -326,7 +338,8 @@ def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
     def assign_unknown(row: int, visited_unknowns: set[int]) -> bool:
         """Return whether equation `row` gets an unknown, after other equations have been moved if necessary.
 
-        `visited_unknowns` collects the unknowns that have been tried.
+        This searches an augmenting path of a bipartite matching. `visited_unknowns` collects the unknowns that have
+        been tried.
         """
         for column in sorted(pattern[row]):
             if column not in visited_unknowns:

@@ -178,7 +178,7 @@ def _read_coordinate_values(node: Map, address: str) -> dict[Text, Text]:
     return {key: check_text_node(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
 
 
-def _read_other_selection(node: Map, key: str, address: str, base_selection: Selection) -> Selection:
+def _read_compared_selection(node: Map, key: str, address: str, base_selection: Selection) -> Selection:
     """Return the selection at a key, {part: …, c: 0.3 mm}, merged over the selection `base_selection` of the trend.
 
     Raises an InputError.
@@ -315,9 +315,9 @@ def _read_comparison(
         return TrendStatement(
             kind,
             measures,
-            _read_other_selection(node, kind, address, base_selection),
+            _read_compared_selection(node, kind, address, base_selection),
             kind,
-            _read_other_selection(node, "than", address, base_selection),
+            _read_compared_selection(node, "than", address, base_selection),
             (),
             factor,
         )
@@ -327,9 +327,9 @@ def _read_comparison(
     return TrendStatement(
         kind,
         measures,
-        _read_other_selection(node, "from", address, base_selection),
+        _read_compared_selection(node, "from", address, base_selection),
         kind,
-        _read_other_selection(node, "to", address, base_selection),
+        _read_compared_selection(node, "to", address, base_selection),
         other_measures,
     )
 

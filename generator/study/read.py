@@ -83,7 +83,7 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
 
 
 def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) -> Iterator[tuple[str, Text]]:
-    """Yield (kind, name) for each name of the dataset that is not a parameter: zips, choices, measures, series."""
+    """Yield (kind, name) for each name of the dataset but parameters: groups of `zip`, choices, measures, series."""
     yield from (("parameters that vary together", key) for key in zip_keys)
     yield from (("a choice", Text.make_text(choice.name, choice.where)) for choice in study.choices)
     if isinstance(root.get("measures"), Map):
@@ -307,7 +307,7 @@ def _select_result_settings(root: Map) -> dict[str, Any]:
 def _require_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
     """Return the names if each occurs once.
 
-    Raises BadNameError at the first that is given twice; `kind` is its kind.
+    Raises BadNameError at the first that is given twice; `kind` is the noun for the names in the message.
     """
     for k, name in enumerate(names):
         if name in names[:k]:
@@ -457,7 +457,7 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
 
 
 def _read_subtracted_scene(name: Text, node: Map, statistic: Text) -> Text | None:
-    """Return the scene whose series a measure subtracts; None if there is none.
+    """Return the scene whose series a measure subtracts, the value of its key `from`; None if there is none.
 
     Raises an InputError if a deviation has no scene, or if the statistic is not one of a series.
     """
@@ -473,7 +473,10 @@ def _read_subtracted_scene(name: Text, node: Map, statistic: Text) -> Text | Non
 
 
 def _read_stored_series(reader: Reader, root: Map) -> tuple[Text, ...]:
-    """Return the names of series that are stored for each run; () if there are none. Errors are collected."""
+    """Return the names of series that are stored for each run (key `keep`); () if there are none.
+
+    Errors are collected.
+    """
     with reader.collect_errors():
         if "keep" in root and root["keep"] != []:
             return _require_unique_names(

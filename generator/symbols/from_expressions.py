@@ -121,11 +121,11 @@ class _Converter:
                 return -self.convert_node(operand)
             case Call(function="sqrt", arguments=(argument_,)):
                 return apply_unexpanded(
-                    lambda a: self._make_power_without_squares(a, _HALF, argument_), self.convert_node(argument_)
+                    lambda a: self._extract_squares_from_power(a, _HALF, argument_), self.convert_node(argument_)
                 )
             case Call(function="hypot", arguments=sides):
                 return apply_unexpanded(
-                    lambda a, b: self._make_power_without_squares(
+                    lambda a, b: self._extract_squares_from_power(
                         _make_unexpanded_square(a) + _make_unexpanded_square(b), _HALF, *sides
                     ),
                     *map(self.convert_node, sides),
@@ -150,9 +150,9 @@ class _Converter:
         exponent = (
             _make_exact(b) if a.has(sp.exp) else _make_exact_if_simple(b)
         )  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
-        return apply_unexpanded(lambda a, b: self._make_power_without_squares(a, b, left), a, exponent)
+        return apply_unexpanded(lambda a, b: self._extract_squares_from_power(a, b, left), a, exponent)
 
-    def _make_power_without_squares(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
+    def _extract_squares_from_power(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
         """Return base**exponent; from a sum to the power k/2, perfect squares are taken out of the root.
 
         `operands`: the unconverted base, or both arguments of hypot; their numbers are read as exact decimals of the

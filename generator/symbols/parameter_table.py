@@ -40,10 +40,10 @@ class ParameterEntry:
 
 @dataclass(frozen=True)
 class ParameterRole:
-    """The role of a derived parameter in a joint or element: `axis` of the unit vector `what`, or `what` itself."""
+    """The role of a derived parameter in a joint or element: `axis` of the unit vector `quantity`, or it itself."""
 
     owner: str
-    what: str
+    quantity: str
     axis: str = ""
 
 
@@ -137,14 +137,14 @@ class ParameterTable(Freezable):
         self._default_of[symbol] = default
         return symbol
 
-    def get_or_add_parameter(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
+    def get_or_add_parameter(self, quantity: Quantity, adds_zero: bool = False) -> sp.Expr:
         """Return the symbol of a quantity's parameter, added at its first use.
 
         A scene's quantity at the same address replaces the argument. A number 0 in the file gives 0, without a
-        parameter, unless `zero` is True.
+        parameter, unless `adds_zero` is True.
         """
         quantity = self._chosen_quantities.get(quantity.address, quantity)
-        if quantity.is_zero and not zero:
+        if quantity.is_zero and not adds_zero:
             return sp.Integer(0)
         if quantity.address not in self.entries:
             _, _, short_address = quantity.address.partition(".")
@@ -155,8 +155,9 @@ class ParameterTable(Freezable):
     def get_or_add_array(self, base_name: str, quantities: Sequence[Quantity]) -> str:
         """Return the name of an array in Parameters that holds the values of several quantities, in their order.
 
-        The array is named after `base_name`. If the first quantity is the first one of an existing array, that array
-        is used.
+        The array is named after `base_name`. If the first quantity is the first one of an existing array, that array is
+        used. The symbols of the elements are copied to the symbol table of the table if they belong to the scene's
+        other one (`Symbols.add_shared_parameter`).
         """
         name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
         if not name:
@@ -250,9 +251,9 @@ class ParameterTable(Freezable):
 
     def find_member_name(self, symbol: sp.Symbol) -> str:
         """Return the name of a parameter's field in Parameters."""
-        return self.find_place(symbol).member
+        return self.find_storage_location(symbol).member
 
-    def find_place(self, symbol: sp.Symbol) -> Place:
+    def find_storage_location(self, symbol: sp.Symbol) -> Place:
         """Return the storage location of a parameter in the struct Parameters; the symbol must be a parameter."""
         place = self.symbols.info[symbol].place
         assert place is not None

@@ -32,7 +32,7 @@ def make_identifier(base_name: str) -> str:
     return re.sub(r"[\W_]+", "_", base_name).strip("_") + "_"
 
 
-def strip_identifier(symbol: sp.Symbol) -> str:
+def get_document_name(symbol: sp.Symbol) -> str:
     """Return the name of a symbol as documents print it: without the underscore that `make_identifier` appends."""
     return str(symbol.name).rstrip("_")
 

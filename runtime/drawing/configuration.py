@@ -14,8 +14,8 @@ from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, Poi
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.field import VECTOR
 from gudgeon.generator.kinds.drives import DRIVES
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import JointType, find_joint_types
 from gudgeon.language.units import DIMENSIONLESS
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import find_slider_dimensions
@@ -172,7 +172,7 @@ class Configuration:
 
 def get_joint_type(joint: PartInfo) -> JointType:
     """Return the declaration of a joint's kind; UNKNOWN for a kind that this version does not have."""
-    return joint_types().get(joint.kind, UNKNOWN)
+    return find_joint_types().get(joint.kind, UNKNOWN)
 
 
 def _is_between_points(part: PartInfo) -> bool:
@@ -182,7 +182,7 @@ def _is_between_points(part: PartInfo) -> bool:
     """
     if part.section == "joints":
         return get_joint_type(part).joins == "points"
-    kinds = DRIVES if part.section == "drives" else element_types()
+    kinds = DRIVES if part.section == "drives" else find_element_types()
     return part.kind not in kinds or kinds[part.kind].targets == "points"
 
 
@@ -192,8 +192,8 @@ def list_direction_keys(part: PartInfo) -> list[str]:
     A drive has none, nor has a force element of an unknown kind.
     """
     fields = get_joint_type(part).fields if part.section == "joints" else ()
-    if part.section == "forces" and part.kind in element_types():
-        fields = element_types()[part.kind].fields
+    if part.section == "forces" and part.kind in find_element_types():
+        fields = find_element_types()[part.kind].fields
     return [item.name for item in fields if item.kind == VECTOR and item.dimension == DIMENSIONLESS]
 
 

@@ -62,7 +62,7 @@ def _compute_gap_line(configuration: Configuration, part: PartInfo, lengths: lis
     `lengths` are the residuals in m. Returns None for a joint whose symbol declares no gap line.
     """
     if part.section == "joints":
-        gap = get_joint_type(part).symbol.gap
+        gap = get_joint_type(part).symbol.find_closure_error
         return np.array(gap(JointGeometry(configuration, part), lengths)) if gap else None
     if part.kind == "coordinate":
         k = "xy".index(part.options["coordinate"])

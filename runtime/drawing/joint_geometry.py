@@ -105,7 +105,7 @@ def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
     slides, (first_end, second_end) = get_joint_type(part).slides, part.ends
     assert slides is not None
     guide, slider = (first_end, second_end) if slides.guide == "first" else (second_end, first_end)
-    is_exchanged = get_joint_type(part).keeps_angle and get_body_name(slider) == GROUND
+    is_exchanged = get_joint_type(part).has_fixed_angle and get_body_name(slider) == GROUND
     return (slider, guide) if is_exchanged else (guide, slider)
 
 
@@ -132,7 +132,7 @@ def has_rail(part: PartInfo) -> bool:
 
 def is_block(part: PartInfo) -> bool:
     """Return whether the slider cannot rotate in its guide."""
-    return get_joint_type(part).keeps_angle
+    return get_joint_type(part).has_fixed_angle
 
 
 def find_pivot_joint(configuration: Configuration, body: str, other_body: str) -> PartInfo | None:

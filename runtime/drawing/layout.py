@@ -88,7 +88,7 @@ def _collect_drawn_points(configuration: Configuration) -> list[Array]:
         if end in configuration.points
     ]
     for part in configuration.iterate_parts("joints"):
-        radii = get_joint_type(part).symbol.reach
+        radii = get_joint_type(part).symbol.find_radii
         for end, radius in zip(part.ends, radii(JointGeometry(configuration, part)), strict=True) if radii else ():
             if radius > 0.0:
                 points += [configuration.get_position(end) + offset for offset in radius * np.array([[1, 1], [-1, -1]])]
@@ -172,7 +172,7 @@ def _find_pin_ground_direction(configurations: Sequence[Configuration], part: Pa
     end = next(end for end in part.ends if get_body_name(end) == GROUND)
     first, angles = configurations[0], []
     pin = first.get_position(end)
-    holding_joints = [joint for joint in first.iterate_parts("joints") if get_joint_type(joint).holds_points]
+    holding_joints = [joint for joint in first.iterate_parts("joints") if get_joint_type(joint).has_coincident_points]
     bodies = {
         body
         for joint_at_pin in holding_joints

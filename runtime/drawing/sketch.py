@@ -165,7 +165,7 @@ def label_joints(configuration: Configuration, layout: Layout, arrow_radii: Mapp
     for part in configuration.iterate_parts("joints"):
         symbol = get_joint_type(part).symbol
         position = symbol.find_name_position(JointGeometry(configuration, part))
-        clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
+        clearance, angle = max(symbol.name_distance, arrow_radii.get(part.name, 0.0)), 45.0
         if has_rail(part) and part.name in layout.ground_directions:  # beyond the rail, away from the slider
             x, y = layout.ground_directions[part.name]
             clearance, angle = BLOCK_HALF_SIZE[1] + 1.2, float(np.degrees(np.arctan2(y, x)))

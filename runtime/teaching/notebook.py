@@ -16,7 +16,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.document import Block, Document, EmbeddedHtml, Equation, Paragraph, Table, Text
 from gudgeon.generator.targets.latex.letters import Formula
@@ -163,7 +163,7 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
             title, code = f"Drive {owner}", None
         else:
             joint = mechanism.joints[owner]
-            joint_type = joint_types()[joint.kind]
+            joint_type = find_joint_types()[joint.kind]
             ends = (
                 f"{ref.body}.{ref.point}" if joint_type.joins == "points" else ref.body
                 for ref in (joint.first, joint.second)
@@ -190,7 +190,7 @@ def _write_revolute_code(
     Returns None for other joint types, and for a revolute joint with a dropped redundant equation.
     """
     joint = model.scene.mechanism.joints[joint_name]
-    if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
+    if not find_joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
     lines = []
     for prefix, ref in (("first", joint.first), ("second", joint.second)):

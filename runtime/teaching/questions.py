@@ -12,7 +12,7 @@ from itertools import takewhile
 import numpy as np
 import sympy as sp
 
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.symbols.switches import Select
 from gudgeon.generator.targets.latex.document import Block, Equation, make_paragraph, make_row, make_tables
 from gudgeon.generator.targets.latex.kinematics import format_gamma
@@ -58,8 +58,8 @@ def _make_mobility_question(subject: Subject) -> Question:
     mechanism, play = model.scene.mechanism, model.scene.play
     rows, count, n = [], 0, 3 * len(mechanism.bodies)
     for name, kind in [*((j.name, j.kind) for j in mechanism.joints.values()), *((d, "") for d in mechanism.drives)]:
-        n_equations = 0 if name in play else len(joint_types()[kind].row_names) if kind else 1
-        title = joint_types()[kind].title if kind else "drive"
+        n_equations = 0 if name in play else len(find_joint_types()[kind].row_names) if kind else 1
+        title = find_joint_types()[kind].title if kind else "drive"
         rows.append(make_row(name, f"{title}, has play" if name in play else title, str(n_equations)))
         count += n_equations
     total = Formula(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import sympy as sp
 
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.targets.latex.document import (
     Block,
     Document,
@@ -176,7 +176,7 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
     model, values = subject.model, ValueFormatter(subject.model, subject.notation)
     mechanism, rows = model.scene.mechanism, []
     for joint in mechanism.joints.values():
-        joint_type = joint_types()[joint.kind]
+        joint_type = find_joint_types()[joint.kind]
         ends = [format_point(ref, joint_type.joins) for ref in (joint.first, joint.second)]
         rows.append(
             make_row(joint.name, joint_type.title + (", has play" if joint.name in model.scene.play else ""), *ends)
@@ -190,7 +190,7 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
     ]
     blocks += make_tables(make_row("drive", "prescribes", "value"), driven, (2,)) + values.pop_long_expressions()
     for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
-        summary, *lines = read_sketch(joint_types()[kind])
+        summary, *lines = read_sketch(find_joint_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 
@@ -200,7 +200,7 @@ def _build_force_blocks(subject: Subject) -> list[Block]:
     model, values = subject.model, ValueFormatter(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
     blocks = make_tables(make_row("gravity"), [make_row(values.format_vector(gravity))]) if gravity is not None else []
-    kinds = {element.name: element_types()[element.kind] for element in elements}
+    kinds = {element.name: find_element_types()[element.kind] for element in elements}
     rows = [
         make_row(e.name, kinds[e.name].title, " and ".join(format_point(x, kinds[e.name].targets) for x in e.targets))
         for e in elements

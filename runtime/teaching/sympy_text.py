@@ -13,7 +13,7 @@ from sympy.printing.str import StrPrinter
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
-from gudgeon.generator.symbols.symbols import strip_identifier
+from gudgeon.generator.symbols.symbols import get_document_name
 from gudgeon.generator.targets.latex.printers import find_fraction_of_pi
 from gudgeon.language.functions import IN_SYMPY
 
@@ -51,7 +51,7 @@ class Printer(StrPrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Return the name of a symbol."""
-        return self._names.get(expr, strip_identifier(expr))
+        return self._names.get(expr, get_document_name(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Return a number; simple fractions of π as such."""
@@ -129,7 +129,7 @@ def assign_names(model: Model) -> dict[sp.Symbol, str]:
     symbols = (model.t, *model.q, *model.v, *(entry.symbol for entry in model.parameter_table.entries.values()))
     names: dict[sp.Symbol, str] = {}
     for symbol in symbols:
-        name = "t" if symbol == model.t else strip_identifier(symbol)
+        name = "t" if symbol == model.t else get_document_name(symbol)
         while symbol != model.t and (name in USED_NAMES or name.startswith(USED_PREFIXES) or name in names.values()):
             name = f"its_{name}"
         names[symbol] = name

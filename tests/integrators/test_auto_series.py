@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.contract.methods import EXPLICIT, STIFF, TAYLOR
 from gudgeon.exchange.fmu import _format_header
-from gudgeon.generator.kernels.taylor import predict_tolerance
+from gudgeon.generator.kernels.taylor import predict_crossover_tolerance
 from gudgeon.integrators.adaptive import RTOL, select_first_method
 from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.simulation import arguments
@@ -86,9 +86,12 @@ def test_the_method_follows_from_scene_and_tolerance() -> None:
 def test_the_prediction_is_monotone() -> None:
     """Tighter tolerances never return to dop853; more operations and closures never extend the use of series."""
     for n_rows in (0, 1, 6):
-        limits = [predict_tolerance(n, n_rows, False) for n in (0, 30, 80, 160, 400, 1200, 10**5)]
+        limits = [predict_crossover_tolerance(n, n_rows, False) for n in (0, 30, 80, 160, 400, 1200, 10**5)]
         assert limits == sorted(limits, reverse=True) and limits[-1] == 0.0
-        assert all(predict_tolerance(n, n_rows, True) >= predict_tolerance(n, n_rows, False) for n in (30, 160))
+        assert all(
+            predict_crossover_tolerance(n, n_rows, True) >= predict_crossover_tolerance(n, n_rows, False)
+            for n in (30, 160)
+        )
 
 
 def test_tight_tolerances_load_the_series_on_request(tmp_path: Path, at_once: Seen) -> None:  # noqa: F811

@@ -19,7 +19,7 @@ from gudgeon.drawing.picture import build_figure, encode_figure
 from gudgeon.drawing.shapes import Disc, Line
 from gudgeon.drawing.sketch import make_sketch
 from gudgeon.generator.kinds import joints
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.format_tables import print_format_tables
 from gudgeon.generator.targets.json_schema import make_schema
@@ -52,9 +52,9 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The folder of joint types has two files more."""
     folder = Path(__file__).parent / "made_up"
     monkeypatch.setattr(joints, "__path__", [*joints.__path__, str(folder)])
-    joint_types.cache_clear()
+    find_joint_types.cache_clear()
     yield
-    joint_types.cache_clear()
+    find_joint_types.cache_clear()
     for file in folder.glob("*.py"):
         sys.modules.pop(f"{joints.__name__}.{file.stem}", None)
 

@@ -18,8 +18,8 @@ from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError, Unkn
 from gudgeon.generator.equations.play import VELOCITY_FLOOR
 from gudgeon.generator.field import BODY, FLAG, KINDS, LAW, MAPPING, NUMBER, RECORD, VECTOR, WORD, Field
 from gudgeon.generator.format.sections import CONTACT, MECHANISM_FILE, SIMULATE
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.kinds.laws import law
 from gudgeon.generator.mechanism import Mechanism
 from gudgeon.generator.pipeline import derive_scene
@@ -52,7 +52,7 @@ MAPPINGS = dict(below(MECHANISM_FILE))
 
 
 def test_every_place_is_looked_at() -> None:
-    kinds = [*joint_types(), *element_types(), *law.find_all_laws(), "angle", "coordinate", "distance"]
+    kinds = [*find_joint_types(), *find_element_types(), *law.find_all_laws(), "angle", "coordinate", "distance"]
     assert [kind for kind in kinds if not any(f"({kind})" in path for path in MAPPINGS)] == []
     assert {"", ".start", ".scenes.NAME.simulate", ".scenes.NAME.play.NAME", ".bodies.NAME"} <= set(MAPPINGS)
 
@@ -146,7 +146,7 @@ LAW = Law(
 @pytest.fixture
 def one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A joint, a force element and a law more: a file in the folder of each, and nothing else."""
-    caches = (joint_types, element_types, law.find_bundled_laws)
+    caches = (find_joint_types, find_element_types, law.find_bundled_laws)
     for package, name, text in (joints, "strut", JOINT), (forces, "fan", FORCE), (laws, "lossy_spring", LAW_FILE):
         folder = tmp_path / name
         folder.mkdir()

@@ -11,8 +11,8 @@ import pytest
 from ruamel.yaml import YAML
 
 from gudgeon.generator.format.sections import DRIVES
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.kinds.laws.law import find_all_laws
 from gudgeon.generator.targets.json_schema import make_schema
 from gudgeon.generator.yaml import Items, Map, Text, parse_yaml
@@ -80,7 +80,7 @@ def test_wrong_shapes_are_invalid(name: str, validator: Any) -> None:
 def test_every_kind_is_in_it() -> None:
     """What a new file in joints/, force_elements/ or forces/ declares is in the schema without further ado."""
     text = json.dumps(make_schema())
-    for kind in (*joint_types(), *element_types(), *find_all_laws(), *DRIVES):
+    for kind in (*find_joint_types(), *find_element_types(), *find_all_laws(), *DRIVES):
         assert f'"{kind}"' in text
     for role in (law.role for law in find_all_laws().values()):
         assert f"{role}_whole" in make_schema()["$defs"]

@@ -20,8 +20,8 @@ from gudgeon.errors import (
     UnknownNameError,
 )
 from gudgeon.generator.format.sections import DRIVES
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import Mechanism, PointRef, Quantity
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.parameters import evaluate_parameters
@@ -49,9 +49,9 @@ def ends(refs: tuple[PointRef, ...]) -> list[tuple[str, str]]:
 def test_every_kind_is_in_some_file() -> None:
     files = [*VALID.glob("*.yaml"), *Path(str(resources.files("gudgeon.mechanisms"))).glob("*.yaml")]
     mechanisms = [read_mechanism(path.read_bytes(), path.name) for path in files]
-    assert {joint.kind for m in mechanisms for joint in m.joints.values()} == set(joint_types())
+    assert {joint.kind for m in mechanisms for joint in m.joints.values()} == set(find_joint_types())
     assert {drive.kind for m in mechanisms for drive in m.drives.values()} == set(DRIVES)
-    assert {force.kind for m in mechanisms for force in m.forces.values()} == set(element_types())
+    assert {force.kind for m in mechanisms for force in m.forces.values()} == set(find_element_types())
 
 
 def test_joints(machine: Mechanism) -> None:
@@ -125,7 +125,7 @@ def test_results_are_those_that_the_elements_build() -> None:
     model = derive_scene(TEXT.encode(), "f", "ideal")
     for name, applied in model.elements.items():
         built = {what: units[unit] for what, (_, unit) in applied.loads.series.items()}
-        assert built == dict(element_types()[model.scene.mechanism.forces[name].kind].results)
+        assert built == dict(find_element_types()[model.scene.mechanism.forces[name].kind].results)
 
 
 def test_overrides() -> None:

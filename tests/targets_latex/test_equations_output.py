@@ -25,7 +25,7 @@ from gudgeon.generator.targets.latex import (
     render_equations_tex,
     render_equations_text,
 )
-from gudgeon.generator.targets.latex.letters import make_name_from_latex, make_symbol_name, make_word_name
+from gudgeon.generator.targets.latex.letters import make_name_from_latex, make_symbol_name, make_user_symbol_name
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.render import _MATH_COMMANDS, _TEXT_COMMANDS, escape_latex, escape_sketch_line
 from tests.slow import slow_but
@@ -147,7 +147,7 @@ def test_letters() -> None:
         and make_symbol_name("theta", "L7").text == "θ_L7"
     )
     assert make_symbol_name("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
-    assert [make_word_name(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
+    assert [make_user_symbol_name(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
         "ω_4",
         "l_5",
         "v_max",

@@ -41,10 +41,10 @@ class Slip:
     stribeck_velocity: Any = 0
 
     def evaluate_kinetic_force(self, v: Any) -> Any:
-        """Return the magnitude (N) of the friction force at a slip v (m/s) of either sign.
+        """Return the magnitude (N) of the friction force at a slip v (m/s) of either sign, as an expression.
 
-        It falls from static to kinetic with the slip; it is the kinetic force at every slip if `stribeck_velocity` is
-        0.
+        It falls from static to kinetic friction with the slip: F_k = F_c + (F_s − F_c) exp(−(v/v_s)²), with the fields
+        `kinetic`, `static` and `stribeck_velocity`. If `stribeck_velocity` is 0, it is F_c at every slip.
         """
         import sympy as sp
 
@@ -83,6 +83,6 @@ class ElementType:
 
 
 @cache
-def element_types() -> Mapping[str, ElementType]:
+def find_element_types() -> Mapping[str, ElementType]:
     """Return all kinds of force elements by name."""
     return {e.kind: e for e in iterate_declarations("gudgeon.generator.kinds.forces", "ELEMENT", ElementType)}

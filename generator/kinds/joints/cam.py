@@ -23,9 +23,11 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: position of the follower's point along the axis, less that of the profile (m).
 
-    Positions count from the cam's point. The profile is a function of the cam's angle relative to the body `carrier`.
-    first_frame, second_frame: frames of the cam's and the follower's point (PointFrame).
-    joint_fields: the joint's values (JointFields).
+    Positions count from the cam's point, and the axis is fixed in the body `carrier`. The profile is a function of the
+    cam's angle relative to `carrier`.
+
+    first_frame, second_frame: frames of the cam's and the follower's point (PointFrame). joint_fields: the joint's
+    values (JointFields).
     """
     u_x, u_y = joint_fields.rotate_direction("axis", "carrier")
     along = u_x * (second_frame.x - first_frame.x) + u_y * (second_frame.y - first_frame.y)
@@ -35,7 +37,8 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 def find_closure_error_points(joint: Any, residuals: Any) -> Any:
     """Return the follower's point and the point where the profile requires it, (2,) each in ground axes (m).
 
-    joint: the joint at a configuration; residuals: the values of its constraint equations (m).
+    The second is the first moved back along the axis by the residual. joint: the joint at a configuration; residuals:
+    the values of its constraint equations (m).
     """
     return joint.second, joint.second - residuals[0] * joint.direction("axis", joint.get_option("carrier"))
 
@@ -61,6 +64,6 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(gap=find_closure_error_points),
+    Symbol(find_closure_error=find_closure_error_points),
     foreign_names=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
 )

@@ -59,11 +59,11 @@ class Symbol:
 
     draw: Callable[[Any], None] = draw_squares
     find_name_position: Callable[[Any], Any] = find_second_point  # where the joint's name stands
-    clear: float = 0.8  # distance of the name from there, in units of half a bar's width
-    # gap(joint, residuals): the two points between which it is open where a start does not close; their
+    name_distance: float = 0.8  # distance of the name from there, in units of half a bar's width
+    # find_closure_error(joint, residuals): the two points between which it is open where a start does not close; their
     # distance is the number next to it. None: no line shows the gap, and the numbers are the residuals of its rows
-    gap: Callable[[Any, Any], Any] | None = None
-    reach: Callable[[Any], tuple[float, float]] | None = None  # radii (m) about both points that are drawn
+    find_closure_error: Callable[[Any, Any], Any] | None = None
+    find_radii: Callable[[Any], tuple[float, float]] | None = None  # radii (m) about both points that are drawn
 
 
 @dataclass(frozen=True)
@@ -97,31 +97,31 @@ class JointType:
     reaction_at: str = "second"  # body whose point is the reference point of the reaction: "first" or "second"
     # rows that tree coordinates satisfy by themselves: two rows if the points coincide, one if the point of the second
     # body slides along the `axis` of the first (generator/reduction/tree.py)
-    carries: tuple[str, ...] = ()
+    positioning_rows: tuple[str, ...] = ()
     foreign_names: tuple[str, ...] = ()  # names in other programs, for hints
 
     @property
     def is_pivot(self) -> bool:
         """Return whether the joint only holds two points together, so that the bodies turn on each other."""
-        return self.holds_points and self.carries == self.row_names
+        return self.has_coincident_points and self.positioning_rows == self.row_names
 
     @property
-    def holds_points(self) -> bool:
+    def has_coincident_points(self) -> bool:
         """Return whether the joint's two points coincide."""
-        return len(self.carries) == 2
+        return len(self.positioning_rows) == 2
 
     @property
-    def keeps_angle(self) -> bool:
+    def has_fixed_angle(self) -> bool:
         """Return whether the bodies cannot turn relative to each other."""
         return "rad" in self.row_units
 
     @property
-    def third_bodies(self) -> tuple[str, ...]:
+    def third_body_fields(self) -> tuple[str, ...]:
         """Return the fields that name a third body, such as a gear's carrier."""
         return tuple(body_field.name for body_field in self.fields if body_field.kind == BODY)
 
 
 @cache
-def joint_types() -> Mapping[str, JointType]:
+def find_joint_types() -> Mapping[str, JointType]:
     """Return all joint types of this folder by kind."""
     return {joint.kind: joint for joint in iterate_declarations("gudgeon.generator.kinds.joints", "JOINT", JointType)}

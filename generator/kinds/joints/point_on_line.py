@@ -52,7 +52,7 @@ JOINT = JointType(
     ("m",),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, find_sliding_point, gap=find_closure_error_to_line),
+    Symbol(draw_symbol, find_sliding_point, find_closure_error=find_closure_error_to_line),
     Slide("direction", "second"),
     reaction_at="first",
     foreign_names=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),

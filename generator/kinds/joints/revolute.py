@@ -34,7 +34,7 @@ JOINT = JointType(
     ("m", "m"),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, gap=find_closure_error_between_points),
-    carries=("x", "y"),
+    Symbol(draw_symbol, find_closure_error=find_closure_error_between_points),
+    positioning_rows=("x", "y"),
     foreign_names=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
 )

@@ -33,7 +33,7 @@ JOINT = JointType(
     ("m", "m", "rad"),
     derive_constraint_equations,
     __doc__,
-    Symbol(draw_symbol, gap=find_closure_error_between_points),
-    carries=("x", "y"),
+    Symbol(draw_symbol, find_closure_error=find_closure_error_between_points),
+    positioning_rows=("x", "y"),
     foreign_names=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
 )

@@ -64,6 +64,6 @@ JOINT = JointType(
     __doc__,
     Symbol(draw_symbol, find_sliding_point, 1.5, find_closure_error_to_line),
     Slide("axis", "first"),
-    carries=("offset",),
+    positioning_rows=("offset",),
     foreign_names=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),
 )

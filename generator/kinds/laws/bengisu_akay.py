@@ -20,7 +20,7 @@ from gudgeon.language.units import VELOCITY
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, as equations by name.
 
-    Its coefficient rises to mu_s at the slip v0, then decays to mu.
+    Its coefficient at the slip u = |v_t| is mu_s [1 − (u/v0 − 1)²] up to v0, then mu + (mu_s − mu) e^{−(u − v0)/decay}.
     """
     import sympy as sp
 

@@ -14,7 +14,10 @@ from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, mak
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t, as equations by name; `share` is the slip over v0."""
+    """Return the friction force F_t (N) on the journal along t, as equations by name; `share` is x = v_t/v0.
+
+    F_t = −F_n [mu tanh 4x + (mu_s − mu) x/(x²/4 + 3/4)²].
+    """
     import sympy as sp
 
     mu, mu_s = inputs.parameters["mu"], inputs.parameters["mu_s"]

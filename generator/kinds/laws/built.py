@@ -50,7 +50,7 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
     }
     constants -= {*inputs.variables.values()}
     types_from_file = frozenset(
-        type(part) for x in inputs.parameters.values() for part in _iterate_expression_parts(x)
+        type(part) for x in inputs.parameters.values() for part in _iterate_subexpressions(x)
     )  # in the file: C has them
 
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
@@ -272,7 +272,7 @@ def _find_symbols(value: Any) -> set[Any]:
     return set(getattr(value, "free_symbols", ()))
 
 
-def _iterate_expression_parts(value: Any) -> Iterable[Any]:
+def _iterate_subexpressions(value: Any) -> Iterable[Any]:
     """Yield the nodes of a SymPy expression in preorder; nothing for a number."""
     import sympy as sp
 
@@ -314,7 +314,10 @@ def make_law_function(
         arguments.append(sp.Symbol(name, real=True))
 
     def compute_results(*variables: ArrayLike) -> Results:
-        """Return the law's results by name for arrays of its variables, which are broadcast. Raises LawError."""
+        """Return the law's results by name for arrays of its variables, which are broadcast to one shape.
+
+        Raises LawError if a result cannot be computed.
+        """
         arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in variables))
         values, results_by_name = list(arrays), dict[str, Any]()
         for name, function in functions:

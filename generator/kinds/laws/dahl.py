@@ -21,7 +21,8 @@ from gudgeon.language.units import LENGTH
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t and the rate of the bristle state, as equations by name.
 
-    The rate is z_rate = v_t − |v_t| z/presliding (m/s).
+    F_t = −mu F_n z/presliding, and the rate is z_rate = v_t − |v_t| z/presliding (m/s). The deflection `presliding` (m)
+    also becomes a derived constant.
     """
     import sympy as sp
 

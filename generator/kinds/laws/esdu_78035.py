@@ -18,10 +18,14 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
+    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name.
+
+    The elastic force F_el solves δ = u [ln(4 c/u) + 1], u = F_el/(π L E*), with the clearance c and the length L. F_n
+    is F_el times the hysteresis factor. A run stops beyond δ = 3.7 c.
+    """
     import sympy as sp
 
-    return make_cylinder_force(inputs, 1, sp.Rational(37, 10))
+    return make_cylinder_force(inputs, log_constant=1, max_penetration_ratio=sp.Rational(37, 10))
 
 
 LAW = Law(

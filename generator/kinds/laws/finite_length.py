@@ -38,7 +38,8 @@ REST = 0.0084  # r
 def compute_fitted_coefficient(s: Any, ratio: Any, n: Sequence[float]) -> Any:
     """Return g0 or g1, the fitted coefficients of the end leakage, for s = √(1 − ε²) and the ratio Λ = L/D.
 
-    `n`: the six fitted numbers, G0 or G1. Arguments are symbols, numbers or arrays.
+    It is n_0 + s [n_1/(Λ + n_2 s) + n_3 + s (n_4 + n_5 Λ)]. `n`: the six fitted numbers, G0 or G1. Arguments are
+    symbols, numbers or arrays.
     """
     return n[0] + s * (n[1] / (ratio + n[2] * s) + n[3] + s * (n[4] + n[5] * ratio))
 

@@ -23,7 +23,8 @@ POWER = 6.804
 def build_greenwood_tripp_fraction(inputs: LawInputs) -> dict[str, Any]:
     """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
 
-    It rises from 0 to 1 with the penetration δ > 0.
+    It is a power, with the exponent POWER, of the overlap of the roughness, from 4 to 0 standard deviations. It rises
+    from 0 to 1 with the penetration δ > 0.
     """
     import sympy as sp
 

@@ -154,14 +154,14 @@ class Law:
         """Return the law's structural options: words, and flags with the values False and True."""
         return tuple(law_field for law_field in self.fields if law_field.kind != NUMBER)
 
-    def check_bounds(self, numbers: Mapping[str, float]) -> None:
-        """Raise BadValueError for a number outside the law's bounds; `numbers` maps keys of the law to values.
+    def check_bounds(self, values: Mapping[str, float]) -> None:
+        """Raise BadValueError for a value outside the law's bounds; `values` maps keys of the law to numbers.
 
-        A bound by another key that is missing in `numbers` is not checked.
+        A bound by another key that is missing in `values` is not checked.
         """
         for field_of_law in self.fields:
-            for bound in field_of_law.bounds if field_of_law.name in numbers else ():
-                value, limit = numbers[field_of_law.name], numbers.get(bound.limit, bound.limit)  # type: ignore[arg-type]
+            for bound in field_of_law.bounds if field_of_law.name in values else ():
+                value, limit = values[field_of_law.name], values.get(bound.limit, bound.limit)  # type: ignore[arg-type]
                 if not isinstance(limit, str) and not RELATIONS[bound.relation](value, limit):
                     hint = f"expected {bound.relation} {bound.limit} ({field_of_law.meaning})"
                     raise BadValueError(f"{field_of_law.name} is {value:g}: {hint}")

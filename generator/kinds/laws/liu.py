@@ -16,7 +16,11 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0, with hysteresis damping, as an equation by name."""
+    """Return the compressive normal force F_n (N) for δ > 0, with hysteresis damping, as an equation by name.
+
+    F_n = (π/2) L E* δ √(δ/(2 (c + δ))) times the hysteresis factor, with the clearance c and the length L of the
+    bearing.
+    """
     import sympy as sp
 
     delta = inputs.variables["delta"]

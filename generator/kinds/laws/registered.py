@@ -139,7 +139,7 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
 
 
 def format_exception(error: BaseException) -> str:
-    """Return a Python error as one line: its type and, if there is one, its text."""
+    """Return a Python error as one line: its type and, if there is one, its text; only the type if str(error) fails."""
     try:
         text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
     except Exception:  # the text of the error itself fails
@@ -300,9 +300,9 @@ def _is_finite_number(value: object) -> TypeGuard[float]:
 
 
 def check_law_name(name: Any, kind: str) -> None:
-    """Raise LawError unless the name is an identifier that emitted code does not reserve.
+    """Raise LawError unless the name is an identifier that emitted code does not reserve (without "__").
 
-    `kind` is its kind in messages.
+    `name`: that of a law, of a number or of an option; `kind`: which of them, for messages.
     """
     _require_condition(isinstance(name, str), f"the name of a {kind} is not a text")
     try:

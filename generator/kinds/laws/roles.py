@@ -110,8 +110,10 @@ ROUGHNESS = number(
 def make_overlap_fraction(inputs: LawInputs, tip_contact_ratio: int, full_contact_ratio: int) -> Any:
     """Return the fraction (at most 1) by which δ has closed the gap from first contact of the tips to full contact.
 
-    δ is the penetration. tip_contact_ratio, full_contact_ratio: film thickness ratios Λ at which the tips touch, and at
-    which no film is left. The film's clearance follows from the first: it becomes the derived constant MEAN_CLEARANCE.
+    It is min(1, δ/((Λ_t − Λ_f) σ_r)) with the penetration δ and the combined roughness σ_r. tip_contact_ratio,
+    full_contact_ratio: film thickness ratios Λ_t at which the tips touch, and Λ_f at which no film is left. The
+    distance and the clearance of the film between the mean surfaces, c + Λ_t σ_r (MEAN_CLEARANCE), become derived
+    constants.
     """
     import sympy as sp
 

@@ -17,7 +17,7 @@ from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, mak
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, as equations by name.
 
-    Its coefficient falls from mu_s to mu with the slip.
+    F_t = −F_n [mu + (mu_s − mu) exp(−(v_t/v_s)²)] tanh(v_t/v0): its coefficient falls from mu_s to mu with the slip.
     """
     import sympy as sp
 

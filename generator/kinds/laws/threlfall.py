@@ -17,7 +17,7 @@ from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_fric
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t, as equations by name.
 
-    It rises exponentially up to the slip v_r and is constant beyond.
+    F_t = −mu F_n [1 − exp(−3 min(|v_t|, v_r)/v_r)] sgn(v_t): it is constant, 0.95 mu F_n, beyond the slip v_r.
     """
     import sympy as sp
 

@@ -28,8 +28,8 @@ from gudgeon.contract.stored import format_base_units
 from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.model import Model, find_eccentricity_rows
 from gudgeon.generator.equations.notes import write_scene_notes
-from gudgeon.generator.kernels.outputs import find_constraining_joints, find_element_series
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kernels.outputs import find_constraining_joints, list_force_element_series
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, iterate_quantities
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.language.tree import Expr, iterate_names, to_json
@@ -84,7 +84,7 @@ def describe_scene(
         joints=_describe_joints(model, body_index, row_index),
         drives=tuple(DriveInfo(name, row_index.get(name, -1), unit_of[name]) for name in mechanism.drives),
         clearances=_describe_clearances(model, parameter_index, body_index),
-        series=tuple(SeriesInfo(name, unit) for name, (_, unit) in find_element_series(model).items()),
+        series=tuple(SeriesInfo(name, unit) for name, (_, unit) in list_force_element_series(model).items()),
         start_rows=tuple(map(_describe_constraint, model.all_rows)),
         start_guess=tuple(start_values.guess),
         start_set=tuple(start_values.set),
@@ -208,7 +208,9 @@ def _describe_joints(
             joint.kind,
             body_index[joint.first.body],
             body_index[joint.second.body],
-            _format_point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
+            _format_point_names(joint.first if find_joint_types()[joint.kind].reaction_at == "first" else joint.second)[
+                0
+            ],
             tuple(row_index[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in find_constraining_joints(model)

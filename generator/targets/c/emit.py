@@ -142,7 +142,7 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
         ABSOLUTE: {
             "parameters.c": lambda: _print_parameters_file(program),
             "constraints.c": lambda: _print_constraints_file(program),
-            "dynamics.c": lambda: _print_kernels(*program.right_hand_side),
+            "dynamics.c": lambda: _print_kernels(*program.right_hand_side_kernels),
         }
     }
     if tree:
@@ -201,7 +201,9 @@ def _print_constraints_file(program: Program) -> str:
     A scene that is integrated also has `has_equal_start_parameters`.
     """
     at_start = (kernel for kernel in program.closed_linkage if kernel.name not in NOT_AT_START)
-    return _print_kernels(*program.closed_linkage) + (print_start_comparison(at_start) if program.integrates else "")
+    return _print_kernels(*program.closed_linkage) + (
+        print_start_parameter_comparison(at_start) if program.integrates else ""
+    )
 
 
 def _print_newton_file(program: Program) -> str:
@@ -271,7 +273,12 @@ def _list_kernels(program: Program) -> list[Kernel]:
     The kernels of methods are those of Newton's method for implicit integrators, or of the kinematic analysis.
     """
     tree, method_kernels = program.tree, program.methods or program.kinematics
-    kernels = [*program.right_hand_side, *program.closed_linkage, *(tree.all_kernels if tree else ()), program.prepare]
+    kernels = [
+        *program.right_hand_side_kernels,
+        *program.closed_linkage,
+        *(tree.all_kernels if tree else ()),
+        program.prepare,
+    ]
     return [*kernels, *(method_kernels.kernels if method_kernels else ()), *program.laws]
 
 
@@ -286,7 +293,7 @@ def _count_function_operations(program: Program) -> dict[str, int]:
     return {name: kernel.n_operations for name, kernel in (counted | laws).items()}
 
 
-def print_start_comparison(kernels: Iterable[Kernel]) -> str:
+def print_start_parameter_comparison(kernels: Iterable[Kernel]) -> str:
     """Return the C function `has_equal_start_parameters`: whether a run can reuse the start of another run.
 
     It compares the members of Parameters that the `kernels` read, above MAX_INLINE_COMPARISONS in a loop. It always

@@ -13,7 +13,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Seq
 from dataclasses import dataclass, replace
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.part_structure import PartStructure, find_part_structure, format_parameter_mark
+from gudgeon.generator.ir.part_structure import PartStructure, find_part_structure, format_parameter_placeholder
 from gudgeon.generator.ir.readable import Readable, make_readable
 from gudgeon.generator.ir.repeats import MIN_REPETITIONS
 from gudgeon.generator.ir.signatures import Access, Number, make_input_argument
@@ -108,26 +108,29 @@ def _normalize_parts(
 
 
 def _find_operand_sources(part: PrintedPart, key: str, print_lines: PrintLines) -> list[int | str]:
-    """Return for each operand in the order of the text its mark, or its text if parts of equal structure share it.
+    """Return for each operand in the order of the text its placeholder, or its text if equal parts share it.
 
-    `key`: that of the normalized part.
+    The placeholders stand for the operands that differ between parts of equal structure; the part is printed with them
+    to find their order. `key`: that of the normalized part, which must not change.
     """
     kernel, readable, _ = part
     structure = find_part_structure(kernel)
     assert structure
-    marked = structure.mark_operands(readable)
-    normalized = _normalize_part((kernel, marked, list(print_lines(kernel, marked))))
+    part_with_placeholders = structure.insert_placeholders(readable)
+    normalized = _normalize_part((kernel, part_with_placeholders, list(print_lines(kernel, part_with_placeholders))))
     assert normalized.key == key
-    marks = {str(mark): mark for mark in structure.list_marks()}
-    marks |= {f"{PARAMETER_INDEX}({format_parameter_mark(mark)})": mark for mark in structure.list_marks()}
-    return [marks.get(text, text) for text in normalized.operands]
+    placeholder_by_text = {str(number): number for number in structure.list_placeholders()}
+    placeholder_by_text |= {
+        f"{PARAMETER_INDEX}({format_parameter_placeholder(number)})": number for number in structure.list_placeholders()
+    }
+    return [placeholder_by_text.get(text, text) for text in normalized.operands]
 
 
 def _format_operand(structure: PartStructure, source: int | str) -> str:
-    """Return an operand of a part as text, from its mark; a text is returned unchanged."""
+    """Return an operand of a part as text, from its placeholder; a text is returned unchanged."""
     if isinstance(source, str):
         return source
-    value = structure.get_marked_value(source)
+    value = structure.get_replaced_value(source)
     return f"{PARAMETER_INDEX}({value})" if isinstance(value, str) else str(value)
 
 

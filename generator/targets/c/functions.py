@@ -21,10 +21,10 @@ from gudgeon.generator.ir.statements import (
     DeclareParameters,
     Guard,
     Jump,
-    Largest,
-    LargestRow,
     Line,
     MarkUnused,
+    MaxMagnitude,
+    MaxMagnitudeRow,
     Return,
     ReturnIfFailed,
     Sines,
@@ -141,7 +141,7 @@ class LinePrinter(ValuePrinter):
                 return self._print_sines(line)
             case SolveDependentRows():
                 return self._print_redundant_equation_solution(line)
-            case Largest():
+            case MaxMagnitude():
                 name = f"*{line.target}"
                 before = ["0.0", *[name] * len(line.values)]
                 largest = [
@@ -149,7 +149,7 @@ class LinePrinter(ValuePrinter):
                     for old, x in zip(before, line.values, strict=False)
                 ]
                 return largest or [f"{name} = 0.0;"]
-            case LargestRow():
+            case MaxMagnitudeRow():
                 return self._print_largest_row(line)
             case StoreRow():
                 values = ", ".join(map(self.print_expression, line.values))
@@ -176,7 +176,9 @@ class LinePrinter(ValuePrinter):
         ]
 
     def _print_call(self, call: Call) -> str:
-        """Return the call of a function in C without a semicolon: its arguments, then the places of its results."""
+        """Return the call of a function in C without a semicolon: its arguments, then the storage locations of its
+        results.
+        """
         arguments = [
             self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.inputs
         ]
@@ -248,7 +250,7 @@ class LinePrinter(ValuePrinter):
             "powers:",
         ]
 
-    def _print_largest_row(self, largest_row: LargestRow) -> list[str]:
+    def _print_largest_row(self, largest_row: MaxMagnitudeRow) -> list[str]:
         """Return the code that sets *row to the number (from 1) of the value with the largest magnitude."""
         first, *others = map(self.print_expression, largest_row.values)
         lines = ["*row = 1;", *([f"double max_magnitude = fabs({first});"] if others else [])]
@@ -286,7 +288,9 @@ def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     or a member of the results ("rhs").
     """
     stored_branches = (
-        "discrete->is_frozen ? discrete->branch : NULL;" if branches.held else "NULL; /* branches are not frozen */"
+        "discrete->is_frozen ? discrete->branch : NULL;"
+        if branches.may_be_frozen
+        else "NULL; /* branches are not frozen */"
     )
     declarations = {"": [], "local": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
         branches.output_target

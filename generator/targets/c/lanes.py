@@ -100,7 +100,7 @@ def _print_joint_in_lanes(joint: JointFunctions, render: Render, n_states: int) 
     They come from the template lane_pin.c.jinja. n_states: internal states of laws that each joint of the scene has.
     """
     clearance = joint.clearance
-    step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
+    step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "blend")
     substitutions = {name: lanes_printer.print_statements(getattr(joint, name)) for name in step_names}
     if clearance.normal is not None:
         substitutions["dry_law"] = print_dry_calls(joint, "lanes_max_of(delta, broadcast(0.0))", "Lanes")

@@ -24,8 +24,8 @@ from gudgeon.generator.ir.statements import (
     DeclareParameters,
     Guard,
     Jump,
-    Largest,
     Line,
+    MaxMagnitude,
     Return,
     Sines,
     SolveDependentRows,
@@ -120,7 +120,7 @@ class LanesPrinter(printer.CPrinter):
         return f"select_value({branch} < 0.0, {b}, {a})"
 
 
-class LaneLines(functions.LinePrinter):
+class LaneLinePrinter(functions.LinePrinter):
     """Print lines of functions for vectors. Raises ValueError for a kind of line without a counterpart."""
 
     printer: LanesPrinter
@@ -179,7 +179,7 @@ class LaneLines(functions.LinePrinter):
                 return ["const LaneParameters *const p = lin->p;"]
             case DeclareBranches():
                 stored_branches, local_array = (
-                    "frozen_branches(discrete)" if line.held else "NULL",
+                    "frozen_branches(discrete)" if line.may_be_frozen else "NULL",
                     "Lanes g[N_SWITCHES + 1];",
                 )
                 declarations_of_target = {
@@ -188,7 +188,7 @@ class LaneLines(functions.LinePrinter):
                     "rhs": ["Lanes *const g = reported_branches(rhs);"],
                 }
                 return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]
-            case Largest():
+            case MaxMagnitude():
                 name = f"*{line.target}"
                 before = ["broadcast(0.0)", *[name] * len(line.values)]
                 largest = [
@@ -208,14 +208,14 @@ class LaneLines(functions.LinePrinter):
 
 def print_expression(value: Value) -> str:
     """Return a value as a vector in C, for use outside of a printed function."""
-    return LaneLines(LanesPrinter()).print_expression(value)
+    return LaneLinePrinter(LanesPrinter()).print_expression(value)
 
 
 def print_statements(statements: Sequence[Statement]) -> str:
     """Return statements as lines of C for the body of a lane function in a template; "" without statements."""
     readable_lines = make_readable_statements(statements)
     return (
-        "\n".join(map(LaneLines(LanesPrinter(readable_lines)).print_line, readable_lines.sections[0].statements))
+        "\n".join(map(LaneLinePrinter(LanesPrinter(readable_lines)).print_line, readable_lines.sections[0].statements))
         if readable_lines.sections
         else ""
     )
@@ -239,7 +239,7 @@ def print_kernel(kernel: Kernel) -> str:
     readable_lines = make_readable(lanes_kernel)
     return functions.print_function(
         lanes_kernel,
-        LaneLines(LanesPrinter(readable_lines)),
+        LaneLinePrinter(LanesPrinter(readable_lines)),
         readable_lines,
         frozenset([_FALLBACK_MASK.name] if marks_lanes else []),
     )

@@ -105,7 +105,7 @@ def _list_linkage_sizes(program: Program) -> Sizes:
         "N_FRICTIONS": (len(model.frictions), "friction elements, which may stick"),
         "N_SWITCHES": (switches, "switching functions of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are events"),
-        "N_SERIES": (len(outputs.find_element_series(model)), "results of force elements"),
+        "N_SERIES": (len(outputs.list_force_element_series(model)), "results of force elements"),
     }
 
 
@@ -178,7 +178,7 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
         ),
         "N_TERMS": (program.time_terms.count, "terms that depend on time only, whose changes a step may miss"),
         "N_TRANSIENTS": (
-            program.time_terms.pulses,
+            program.time_terms.n_transients,
             "the first of these: transients that a step of any motion may miss",
         ),
     }
@@ -211,7 +211,7 @@ def _list_initial_condition_sizes(program: Program) -> Sizes:
     GUESSED_POINTS is a flag: some guesses are coordinates of points. N_ECCENTRICITIES, the number of specified
     eccentricities of journals, exists only if there are any.
     """
-    start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
+    start_indices, guess = _find_initial_condition_indices(program.model), program.model.scene.mechanism.start.guess
     eccentricity_constraints = find_eccentricity_rows(program.model)
     sizes: Sizes = {
         "N_GUESS": (len(start_indices["guess_coordinate"]), "coordinates that the start gives as guesses"),
@@ -315,7 +315,7 @@ def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
     """
     model, start_indices, drives = (
         program.model,
-        _find_start_indices(program.model),
+        _find_initial_condition_indices(program.model),
         program.model.scene.mechanism.drives,
     )
     row_index = {row.name: r for r, row in enumerate(model.all_rows)}
@@ -369,11 +369,11 @@ def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[
     return {
         ("short", "monitored_event"): event_functions,
         ("short", "monitored_index"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
-        ("unsigned char", "is_continuous_switch"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
+        ("unsigned char", "is_continuous_switch"): _flag_continuous_switches(program.model, int(count["N_SWITCHES"])),
     }
 
 
-def _mark_continuous_switches(model: Model, n_switches: int) -> list[int]:
+def _flag_continuous_switches(model: Model, n_switches: int) -> list[int]:
     """Return `n_switches` flags: 1 for a switching function at which a force is continuous, 0 if it may jump.
 
     Those of contact laws are continuous, except films with the option `as_printed`. All others have 0.
@@ -392,7 +392,7 @@ def _find_friction_indices_of_pivots(kkt: KKT) -> list[int]:
     return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) : len(kkt.rows) + len(names)]]
 
 
-def _find_start_indices(model: Model) -> dict[str, list[int]]:
+def _find_initial_condition_indices(model: Model) -> dict[str, list[int]]:
     """Return {table: indices}: in q those of guessed and set coordinates, in v those of set velocities.
 
     A guess that is the coordinate of a point, not of a body, has the index 0.

@@ -90,7 +90,7 @@ def make_printed_functions(joint: JointFunctions, render: Render, n_states: int)
         arguments=_ARGUMENTS % _declare_surface_arguments(clearance),
         contour_arguments="".join(f", {name}" for name in _list_contour_arguments(joint)),
         gap=_print_statements(joint.gap),
-        share=_print_statements(joint.share),
+        share=_print_statements(joint.blend),
         rigid=clearance.rigid,
         closed="contact->closed" if clearance.rigid else CLOSED,
         store=_print_result_store(clearance, n_states),
@@ -99,7 +99,7 @@ def make_printed_functions(joint: JointFunctions, render: Render, n_states: int)
         first=joint.switch_indices.start,
         last=joint.switch_indices.stop,
     )
-    stores: Stores = [*functions.print_each_statement(joint.gap), *functions.print_each_statement(joint.share)]
+    stores: Stores = [*functions.print_each_statement(joint.gap), *functions.print_each_statement(joint.blend)]
     stores += [
         (_BLENDED.format(component), f"F.{component}") for component in ("n", "t", "M_i", "M_j") if joint.has_transition
     ]

@@ -58,7 +58,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return self.print_place(c_name_or_place) if isinstance(c_name_or_place, Place) else c_name_or_place
 
     def print_place(self, place: Place) -> str:
-        """Return a place as an lvalue in C: a result as `*name`, members of a struct by `->`, `.` or index."""
+        """Return a storage location as an lvalue in C: a result as `*name`, members by `->`, `.` or index."""
         if isinstance(place, Result):
             return f"*{place.base}"
         text = place.base if place.path else self.get_name(place.base)
@@ -333,7 +333,7 @@ class ValuePrinter:
     def _print_bound_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a test's bound as a C expression.
 
-        A threshold is printed as its storage place if it has one, else as its macro in model.h. Other floats are
+        A threshold is printed as its storage location if it has one, else as its macro in model.h. Other floats are
         printed as literals.
         """
         if isinstance(value, Threshold):

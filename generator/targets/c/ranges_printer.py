@@ -132,7 +132,7 @@ class RangesPrinter(printer.CPrinter):
         return self._print_call("select", *expr.args)
 
 
-class _RangeLines(functions.LinePrinter):
+class _RangeLinePrinter(functions.LinePrinter):
     """Print statements whose locals are ranges."""
 
     printer: RangesPrinter
@@ -157,5 +157,8 @@ def print_kernel(kernel: Kernel) -> str:
     range_kernel = replace(kernel, arguments=arguments)
     readable_lines = make_readable(range_kernel, name_branches=False)
     return functions.print_function(
-        range_kernel, _RangeLines(RangesPrinter(readable_lines), "Interval"), readable_lines, is_called_by_engine=True
+        range_kernel,
+        _RangeLinePrinter(RangesPrinter(readable_lines), "Interval"),
+        readable_lines,
+        is_called_by_engine=True,
     )

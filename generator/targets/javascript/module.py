@@ -9,7 +9,7 @@ from contextlib import suppress
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.dependence import propagate_marks
+from gudgeon.generator.ir.dependence import compute_backward_slices
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
@@ -125,7 +125,7 @@ def find_right_hand_side_locals(dynamics: Kernel, model: Model) -> set[str]:
     The right-hand sides `rhs_<row>` themselves are included.
     """
     names = {make_identifier(f"rhs_{row.name}") for row in model.rows}
-    dependence = propagate_marks(
+    dependence = compute_backward_slices(
         make_readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ())
     )
     return {name for name in dependence.by_target if isinstance(name, str)}

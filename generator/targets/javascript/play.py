@@ -125,7 +125,7 @@ def _print_joint_force_body(joint: JointFunctions, members_read: set[str]) -> li
     that are read.
     """
     label = joint.clearance.label
-    gap, blend = _PrintedStatements(joint.gap, members_read), _PrintedStatements(joint.share, members_read)
+    gap, blend = _PrintedStatements(joint.gap, members_read), _PrintedStatements(joint.blend, members_read)
     parts = (("dry", _list_dry_arguments(joint)), ("film", _FILM))
     dry, film = (f"functions.{part}_{label}_({', '.join(call_arguments)})" for part, call_arguments in parts)
     body = [*gap.text, _print_store(f"clearance_{label}_", gap.locals)]

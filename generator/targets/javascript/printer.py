@@ -19,8 +19,8 @@ from gudgeon.generator.ir.statements import (
     DeclareBranches,
     Guard,
     Jump,
-    LargestRow,
     Line,
+    MaxMagnitudeRow,
     Return,
     Sines,
     SolveDependentRows,
@@ -83,7 +83,7 @@ class JavaScriptPrinter(CPrinter):
         return JavaScriptPrinter(readable_lines, self.members_read)
 
     def print_place(self, place: Place) -> str:
-        """Return the path of a place in JavaScript; the member of a parameter is added to `members_read`."""
+        """Return the path of a storage location in JavaScript; the member of a parameter is added to `members_read`."""
         if place.is_parameter:
             self.members_read.add(place.member)
         return str(place)
@@ -194,7 +194,7 @@ class LinePrinter:
         a joint's function stores its force in ground axes. Raises ValueError for a line without a counterpart.
         """
         if isinstance(
-            line, (DeclareBranches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)
+            line, (DeclareBranches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, MaxMagnitudeRow)
         ):
             return []
         if isinstance(line, Sines):

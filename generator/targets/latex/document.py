@@ -31,7 +31,7 @@ class Paragraph:
     kind: str = "paragraph"
 
     @property
-    def leads(self) -> bool:
+    def keeps_with_next(self) -> bool:
         """Return whether the next block belongs on the same page, since the paragraph ends with a colon."""
         return isinstance(self.text[-1], str) and self.text[-1].endswith(":")
 

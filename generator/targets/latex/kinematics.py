@@ -16,7 +16,7 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.dependence import find_symbol_names
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.targets.latex.document import (
     Block,
     Equation,
@@ -29,7 +29,7 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.letters import Formula
-from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
+from gudgeon.generator.targets.latex.notation import Notation, list_intermediate_symbols
 from gudgeon.generator.targets.latex.pictures import draw_jacobian_pattern
 from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, name_component
 
@@ -121,7 +121,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
     explain where(…) and the unit step H if they occur.
     """
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
-    others = laws | set(list_temporaries(model))
+    others = laws | set(list_intermediate_symbols(model))
     equations = [
         make_equation(symbol, notation.expand_symbols(definition), notation)
         for symbol, definition in model.symbols.definitions.items()
@@ -210,7 +210,10 @@ def _group_rows_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Ro
     for (owner, kind), rows in groupby(enumerate(model.rows, 1), key=lambda pair: (pair[1].owner, pair[1].kind)):
         if kind == "joint":
             joint = mechanism.joints[owner]
-            yield f"Joint {owner}, {joint_types()[joint.kind].title}, line {joint.where.line} of the file", list(rows)
+            yield (
+                f"Joint {owner}, {find_joint_types()[joint.kind].title}, line {joint.where.line} of the file",
+                list(rows),
+            )
         else:
             yield f"Drive {owner}, line {mechanism.drives[owner].where.line} of the file", list(rows)
 

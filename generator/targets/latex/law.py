@@ -28,7 +28,7 @@ from gudgeon.generator.targets.latex.letters import (
     assign_unique_names,
     make_name_from_latex,
     make_symbol_name,
-    make_word_name,
+    make_user_symbol_name,
 )
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.play import describe_internal_states, format_option
@@ -182,8 +182,8 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
 
     other_forms: forms of other choices, whose inputs and results are listed in the table, too.
     """
-    letters = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
-    rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
+    symbol_by_name = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
+    rows = [make_row(symbol_by_name[name], *_MEANINGS[name]) for name in _MEANINGS if name in symbol_by_name]
     yield from make_tables(make_row("symbol", "meaning", "unit"), rows)
     yield from describe_internal_states(law)
     if default_form.constants:
@@ -291,7 +291,7 @@ def _derive_form(
     symbols_read = {name for name, value in equations_by_name.items() if value != 0}.union(*free_symbols)
     described_symbols = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
     described_symbols |= {name: _make_probe_symbol(name) for name in PAIR_QUANTITIES}
-    letters = tuple(
+    used_symbols = tuple(
         (name, notation.format_expression(symbol))
         for name, symbol in described_symbols.items()
         if symbol in symbols_read and name in _MEANINGS
@@ -301,7 +301,7 @@ def _derive_form(
         """Return {symbol: value} as equations in the notation of the law, in the same order."""
         return tuple(make_equation(left, right, notation) for left, right in definitions.items())
 
-    return Form(selected, make_equations(constants), make_equations(equations_by_name), letters)
+    return Form(selected, make_equations(constants), make_equations(equations_by_name), used_symbols)
 
 
 def _propose_symbol_names(
@@ -325,7 +325,7 @@ def _propose_symbol_names(
         base, _, index = name.partition("_")
         yield _make_probe_symbol(name), make_symbol_name(base, index) if index else make_symbol_name(base)
     for name in constants:
-        yield _make_probe_symbol(name), LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
+        yield _make_probe_symbol(name), LAW_SYMBOL_NAMES.get(name) or make_user_symbol_name(name)
     for name in equations_by_name:
         yield sp.Symbol(name, real=True), name_law_variable(law, name)
 

@@ -169,7 +169,7 @@ def _describe_common_keys() -> Iterator[str]:
     for name, (option, laws) in _find_common_options().items():
         values, default = _list_option_cells(option)[2:]
         links = ", ".join(f"[`{law}`](#{law})" for law in laws)
-        yield f"| `{name}` | {links} | {values} | {default} | {_format_words(option.meaning)} |"
+        yield f"| `{name}` | {links} | {values} | {default} | {_format_declared_text(option.meaning)} |"
     yield ""
     yield (
         "- [The dissipation of a normal force](#the-dissipation-of-a-normal-force) lists the factor $a$ for each value"
@@ -233,7 +233,7 @@ def _describe_dissipation() -> Iterator[str]:
 
 def _describe_law_in_markdown(law: Law) -> Iterator[str]:
     """Yield the Markdown lines on a law: title, other names, equations, symbols, choices, keys, validity, source."""
-    yield from (f"### `{law.name}`", "", f"{make_sentence(_format_words(law.title))}", "")
+    yield from (f"### `{law.name}`", "", f"{make_sentence(_format_declared_text(law.title))}", "")
     if law.also:
         names_text = ", ".join(f"`{name}`" for name in law.also)
         yield from (f"Other names, each for `{law.name}` with the `dissipation` of that name: {names_text}.", "")
@@ -276,15 +276,15 @@ def _print_validity(law: Law) -> Iterator[str]:
     properties = [clause for clause in clauses if clause.startswith(_PROPERTIES)]
     limits = [clause for clause in clauses if clause not in properties]
     for heading, items in (("Validity", limits), ("Properties", properties)):
-        sentences = [_format_words(make_sentence(clause)) for clause in items]
+        sentences = [_format_declared_text(make_sentence(clause)) for clause in items]
         if len(sentences) == 1:
             yield from (f"**{heading}**: {sentences[0]}", "")
         elif sentences:
             yield from (f"**{heading}**:", "", *(f"- {sentence}" for sentence in sentences), "")
 
 
-def _format_words(text: str) -> str:
-    """Return the words of a declaration with names in full spelling and symbols as formulas (_SPELLINGS, _FORMULAS)."""
+def _format_declared_text(text: str) -> str:
+    """Return a text of a declaration with names in full spelling and symbols as formulas (_SPELLINGS, _FORMULAS)."""
     for name, spelling in _SPELLINGS.items():
         text = text.replace(name, spelling)
     for pattern, formula in _FORMULAS:
@@ -339,7 +339,8 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
         yield (
             "| "
             + " | ".join(
-                cell.replace("|", "\\|") for cell in (f"`{parameter.name}`", *cells, _format_words(parameter.meaning))
+                cell.replace("|", "\\|")
+                for cell in (f"`{parameter.name}`", *cells, _format_declared_text(parameter.meaning))
             )
             + " |"
         )

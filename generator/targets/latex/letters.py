@@ -9,7 +9,7 @@ from itertools import groupby, takewhile
 
 import sympy as sp
 
-from gudgeon.generator.symbols.symbols import strip_identifier
+from gudgeon.generator.symbols.symbols import get_document_name
 
 GREEK = {
     "alpha": "α",
@@ -94,7 +94,7 @@ def get_greek_command(word: str) -> str:
     return _VARIANT.get(word, f"\\{word}")
 
 
-def make_word_name(name: str) -> Formula:
+def make_user_symbol_name(name: str) -> Formula:
     """Return the name of a user-defined identifier: omega4 is ω with subscript 4, v_max is v with subscript max.
 
     Only a letter or the name of a Greek letter gets a subscript; other identifiers, such as "speed", stay words.
@@ -135,8 +135,8 @@ def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Formula]]) -> dict[sp.
     for symbol, name in proposed:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        uses_identifier = name.text in used_names and "_" not in strip_identifier(symbol)
-        name = add_primes(make_symbol_name(strip_identifier(symbol)) if uses_identifier else name, used_names)
+        uses_identifier = name.text in used_names and "_" not in get_document_name(symbol)
+        name = add_primes(make_symbol_name(get_document_name(symbol)) if uses_identifier else name, used_names)
         used_names.add(name.text)
         names[symbol] = name
     return names

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import ForceElement, Joint, PointRef
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, make_paragraph, make_row, make_tables
 from gudgeon.generator.targets.latex.letters import Formula
@@ -88,7 +88,7 @@ def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
     for joint in model.scene.mechanism.joints.values():
         row_numbers = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == joint.name]
         row_range = f"{row_numbers[0]} to {row_numbers[-1]}" if len(row_numbers) > 1 else "".join(row_numbers)
-        joint_type = joint_types()[joint.kind]
+        joint_type = find_joint_types()[joint.kind]
         point_names = [format_point(ref, joint_type.joins) for ref in (joint.first, joint.second)]
         reason = "none: the joint has play" if joint.name in model.scene.play else "none: redundant"
         rows.append(make_row(joint.name, joint_type.title, *point_names, row_range or reason))
@@ -105,7 +105,7 @@ def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
     )
     blocks += values.pop_long_expressions()
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        summary, *lines = read_sketch(joint_types()[kind])
+        summary, *lines = read_sketch(find_joint_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 

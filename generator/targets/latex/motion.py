@@ -6,7 +6,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.kinds.forces.force_type import find_element_types
 from gudgeon.generator.targets.latex.document import (
     Block,
     Equation,
@@ -19,7 +19,7 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.kinematics import make_equation
 from gudgeon.generator.targets.latex.letters import Formula, make_symbol_name
 from gudgeon.generator.targets.latex.mechanism import format_point, list_field_rows
-from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
+from gudgeon.generator.targets.latex.notation import Notation, list_intermediate_symbols
 from gudgeon.generator.targets.latex.pictures import draw_assembled_matrix
 from gudgeon.generator.targets.latex.theory import PHI_Q, name_component, read_sketch
 from gudgeon.generator.targets.latex.values import ValueFormatter
@@ -75,12 +75,12 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
 
     Friction elements also have slip velocity and force. The section on generalized forces has the contributions to g.
     """
-    values, temporary_symbols = ValueFormatter(model, notation), list_temporaries(model)
+    values, temporary_symbols = ValueFormatter(model, notation), list_intermediate_symbols(model)
     frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in list_field_rows(applied.element, values)]
     blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.pop_long_expressions()]
     for name, applied in model.elements.items():
-        element_type = element_types()[applied.element.kind]
+        element_type = find_element_types()[applied.element.kind]
         targets = " and ".join(format_point(target, element_type.targets) for target in applied.element.targets)
         blocks.append(make_paragraph(f"{name}: {element_type.title} ({targets})."))
         blocks += [
@@ -95,7 +95,7 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
                 make_equation(make_symbol_name("V", name), notation.expand_symbols(applied.loads.potential), notation)
             )
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        summary, *lines = read_sketch(element_types()[kind])
+        summary, *lines = read_sketch(find_element_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 

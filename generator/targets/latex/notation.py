@@ -10,8 +10,8 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
-from gudgeon.generator.symbols.symbols import Symbols, strip_identifier
-from gudgeon.generator.targets.latex.letters import Formula, add_primes, make_symbol_name, make_word_name
+from gudgeon.generator.symbols.symbols import Symbols, get_document_name
+from gudgeon.generator.targets.latex.letters import Formula, add_primes, make_symbol_name, make_user_symbol_name
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.latex.theory import collect_theory_symbols
 
@@ -153,7 +153,7 @@ def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Formula], tuple[
 def _describe_symbol(model: Model, symbol: sp.Symbol) -> str:
     """Return the meaning of a symbol, such as its address in the file; its identifier if no meaning is stored."""
     info = model.symbols.info.get(symbol)
-    return (info.meaning if info else "") or strip_identifier(symbol)
+    return (info.meaning if info else "") or get_document_name(symbol)
 
 
 def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Formula]]:
@@ -175,14 +175,14 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Formula]]:
         yield entry.symbol, name_parameter(entry.address)
     for symbol in model.parameter_table.derived:
         yield symbol, _name_derived_parameter(model, symbol)
-    for symbol in list_temporaries(model):
-        yield symbol, _name_temporary(model.symbols.info[symbol].meaning)
+    for symbol in list_intermediate_symbols(model):
+        yield symbol, _name_intermediate_quantity(model.symbols.info[symbol].meaning)
     for symbol in list_drive_distances(model):
-        yield symbol, _name_drive_distance(strip_identifier(symbol))
+        yield symbol, _name_drive_distance(get_document_name(symbol))
     for symbol in list_rotated_components(model):
         component = model.geometry.rotated_components.get(symbol)
         if component is None:
-            yield symbol, make_symbol_name(strip_identifier(symbol))
+            yield symbol, make_symbol_name(get_document_name(symbol))
         elif component.point:
             yield symbol, make_symbol_name("s", component.axis, component.body, component.point)
         else:  # the first direction of a body has no number
@@ -197,7 +197,7 @@ def name_parameter(address: str) -> Formula:
     """
     match address.split("."):
         case ["parameters", name]:
-            return make_word_name(name)
+            return make_user_symbol_name(name)
         case ["baumgarte", gain]:
             return make_symbol_name(gain)
         case ["gravity", axis]:
@@ -213,7 +213,7 @@ def name_parameter(address: str) -> Formula:
         case ["bodies", body, "sides", point, axis]:
             return make_symbol_name({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
-            return make_symbol_name(get_field_letter(constant), material)
+            return make_symbol_name(get_field_symbol(constant), material)
         case ["bearings", bearing, "length"]:
             return make_symbol_name("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
@@ -223,7 +223,7 @@ def name_parameter(address: str) -> Formula:
         case ["bodies", body, "shape", "rectangle", axis]:
             return make_symbol_name({"x": "a", "y": "b"}[axis], body)
         case ["bodies", body, "shape", *_, field]:
-            return make_symbol_name(get_field_letter(field), body)
+            return make_symbol_name(get_field_symbol(field), body)
         case ["contacts", contact, *rest]:
             return make_symbol_name(rest[-1], contact)
         case ["start", _, body, coordinate]:
@@ -233,15 +233,15 @@ def name_parameter(address: str) -> Formula:
             return (
                 make_symbol_name(_UNSTRESSED[field], owner, superscript="0")
                 if field in _UNSTRESSED
-                else make_symbol_name(get_field_letter(field), owner)
+                else make_symbol_name(get_field_symbol(field), owner)
             )
         case [_, owner, field, axis]:
             axis = {"x": "1", "y": "2"}[axis] if field == "radii" else axis
-            return make_symbol_name(get_field_letter(field), axis, owner)
+            return make_symbol_name(get_field_symbol(field), axis, owner)
     return make_symbol_name(address.replace(".", "_"))
 
 
-def get_field_letter(field: str) -> str:
+def get_field_symbol(field: str) -> str:
     """Return the symbol of a field by its name, "m" for "mass"; a field without one keeps its name."""
     return _ONE_LETTER.get(field, field)
 
@@ -253,16 +253,16 @@ def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Formula:
     """
     owner_info = model.parameter_table.roles.get(symbol)
     if owner_info is None:
-        return make_symbol_name(strip_identifier(symbol))
+        return make_symbol_name(get_document_name(symbol))
     return make_symbol_name(
-        get_field_letter(owner_info.what),
+        get_field_symbol(owner_info.quantity),
         *([owner_info.axis] if owner_info.axis else []),
         owner_info.owner,
         hat=bool(owner_info.axis),
     )
 
 
-def _name_temporary(meaning: str) -> Formula:
+def _name_intermediate_quantity(meaning: str) -> Formula:
     """Return the name of a temporary of a force element from its meaning, "span_x of coil": Δ_x,coil."""
     quantity, _, owner = meaning.partition(" of ")
     base, _, axis = quantity.rpartition("_")
@@ -290,7 +290,7 @@ def list_drive_distances(model: Model) -> list[sp.Symbol]:
     return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
 
 
-def list_temporaries(model: Model) -> list[sp.Symbol]:
+def list_intermediate_symbols(model: Model) -> list[sp.Symbol]:
     """Return the symbols of intermediate quantities of force elements, such as a spring's length and force.
 
     They are all definitions except parameters, angles and distances of drives, and rotated components.
@@ -333,4 +333,4 @@ def _list_shown_symbols(model: Model) -> Iterator[sp.Symbol]:
     for symbol, value in model.parameter_table.derived.items():
         if sp.count_ops(value) > MAX_CONSTANT_OPERATIONS and symbol not in model.parameter_table.internal_parameters:
             yield symbol
-    yield from list_temporaries(model)
+    yield from list_intermediate_symbols(model)

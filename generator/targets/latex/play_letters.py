@@ -58,7 +58,7 @@ from gudgeon.generator.targets.latex.letters import (
     assign_unique_names,
     make_name_from_latex,
     make_symbol_name,
-    make_word_name,
+    make_user_symbol_name,
 )
 
 # Indices of the parts of a joint with film and dry contact.
@@ -195,7 +195,7 @@ def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[
                 yield entry.symbol, make_name_from_latex(get_latex_symbol(parameter))
     for name, value in clearance.constants.items():
         if not (wall and value == pair.R_j):
-            yield value, LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
+            yield value, LAW_SYMBOL_NAMES.get(name) or make_user_symbol_name(name)
     for equations, _ in laws:
         for name in equations.equations_by_name:
             yield get_result_symbol(equations, name), name_law_variable(equations.law, name)
@@ -242,9 +242,9 @@ def name_law_variable(law: Law, name: str) -> Formula:
     name = name.removesuffix("__")  # of a user-defined law
     rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
     specific_name = LAW_SPECIFIC_NAMES.get((law.name, name))
-    return specific_name or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
+    return specific_name or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_user_symbol_name(name)
 
 
 def get_latex_symbol(parameter: Field) -> str:
     """Return the symbol of a law's parameter in LaTeX, or else its name."""
-    return parameter.symbol or make_word_name(parameter.name).latex
+    return parameter.symbol or make_user_symbol_name(parameter.name).latex

@@ -58,8 +58,8 @@ def plot_law_of_joints(functions: Functions, joint_labels: Sequence[str], role: 
     role: "normal", "friction" or "film". [] is returned for "mixed", rigid contacts and laws with internal states, and
     if the law cannot be evaluated to finite values for arrays.
     """
-    pin_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
-    joint = functions.program.joints[pin_indices[joint_labels[0]]]
+    joint_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
+    joint = functions.program.joints[joint_indices[joint_labels[0]]]
     call = joint.laws.get(role)
     if call is None or law.states or law.rigid:
         return []
@@ -203,7 +203,7 @@ def print_plot_svg(plot: Plot, mark_values: Mapping[str, str]) -> str:
             y = TOP + 12 + 15 * k
             parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
             parts.append(f'<text x="{LEFT + 44}" y="{y}">{_print_label(curve.label)}</text>')
-    parts += [_print_state_mark(name, value, x_min, x_max, len(plot.curves)) for name, value in mark_values.items()]
+    parts += [_print_state_marker(name, value, x_min, x_max, len(plot.curves)) for name, value in mark_values.items()]
     return print_svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
 
 
@@ -240,7 +240,7 @@ def _print_label(text: str) -> str:
     return "".join((first, *subscripts))
 
 
-def _print_state_mark(name: str, value_name: str, x_min: float, x_max: float, n_curves: int) -> str:
+def _print_state_marker(name: str, value_name: str, x_min: float, x_max: float, n_curves: int) -> str:
     """Return the SVG group that marks a joint's state: a vertical line, a dot per curve and the label `name`.
 
     It is hidden until current_values.js moves it. x_min, x_max: limits of the x axis.

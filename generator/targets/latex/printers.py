@@ -14,7 +14,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf
-from gudgeon.generator.symbols.symbols import strip_identifier
+from gudgeon.generator.symbols.symbols import get_document_name
 from gudgeon.generator.targets.latex.letters import Formula
 from gudgeon.language.functions import IN_SYMPY, Function
 
@@ -67,7 +67,7 @@ class TextPrinter(_BodyOrder, StrPrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print the name of a symbol."""
-        return self._names.get(expr, strip_identifier(expr))
+        return self._names.get(expr, get_document_name(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a number: as an angle if `format_angle` finds one, else in decimal."""

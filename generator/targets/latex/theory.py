@@ -16,8 +16,8 @@ from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Assignment
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
-from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
+from gudgeon.generator.kinds.forces.force_type import ElementType, find_element_types
+from gudgeon.generator.kinds.joints.joint_type import JointType, find_joint_types
 from gudgeon.generator.targets.latex.letters import Formula, make_name_from_latex, make_symbol_name
 from gudgeon.generator.targets.latex.play_letters import (
     get_latex_symbol,
@@ -92,7 +92,7 @@ def _list_theory_symbols(model: Model) -> Iterator[tuple[str, str]]:
     yield from _list_force_element_symbols(model)
     yield from ((make_symbol_name("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        yield from _list_sketch_symbols(joint_types()[kind])
+        yield from _list_sketch_symbols(find_joint_types()[kind])
 
 
 def _list_constraint_symbols(model: Model) -> Iterator[tuple[str, str]]:
@@ -119,7 +119,7 @@ def _list_force_element_symbols(model: Model) -> Iterator[tuple[str, str]]:
         jacobian_entries = (make_symbol_name("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
         yield from ((name.text, f"slip of {friction.name}") for name in jacobian_entries)
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        yield from _list_sketch_symbols(element_types()[kind])
+        yield from _list_sketch_symbols(find_element_types()[kind])
 
 
 def _list_sketch_symbols(type_: JointType | ElementType) -> Iterator[tuple[str, str]]:

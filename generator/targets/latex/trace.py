@@ -14,7 +14,7 @@ from functools import partial
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.branches import Branch
-from gudgeon.generator.ir.dependence import NO_MARKS, Marks, find_symbol_names, propagate_marks
+from gudgeon.generator.ir.dependence import compute_backward_slices, find_symbol_names
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import RHS
@@ -39,7 +39,9 @@ from gudgeon.generator.targets.latex.document import (
 
 # Functions of the closed linkage -> symbol of their result: `constraints` computes phi[r].
 RESULT_SYMBOLS = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
-LineTokens = Mapping[int, Marks]  # line of a file -> tokens
+Tokens = frozenset[str]
+NO_TOKENS: Tokens = frozenset()
+LineTokens = Mapping[int, Tokens]  # line of a file -> tokens
 
 
 @dataclass(frozen=True)
@@ -62,10 +64,10 @@ class HighlightIndex(Functions):
 
     lines: Mapping[str, LineTokens]
     values: Mapping[str, Mapping[int, str]]
-    tokens_by_address: Mapping[str, Marks]
+    tokens_by_address: Mapping[str, Tokens]
 
 
-def make_functions(model: Model) -> Functions:
+def make_scene_functions(model: Model) -> Functions:
     """Return the functions of a scene for a document without C: kernels, description, names of the C files.
 
     The C is not printed.
@@ -129,15 +131,15 @@ class _TokenCollector:
             self._collect_kernel_tokens(kernel)
         for joint in program.joints:
             contact = self.model.scene.play[joint.clearance.joint.name].contact.name
-            joint_marks = frozenset(list_joint_tokens(joint.clearance))
+            joint_tokens = frozenset(list_joint_tokens(joint.clearance))
             for call in joint.laws.values():
-                law_marks = frozenset({f"law-{contact}", *joint_marks})
-                self._add_text_tokens(functions.print_kernel(call.kernel), law_marks)
+                law_tokens = frozenset({f"law-{contact}", *joint_tokens})
+                self._add_text_tokens(functions.print_kernel(call.kernel), law_tokens)
                 self._add_stores(call.kernel, {})
                 for parameter in call.parameters:
-                    self.tokens_by_parameter[parameter] |= law_marks
+                    self.tokens_by_parameter[parameter] |= law_tokens
             for part in make_printed_functions(joint, render_template, self.model.law_states):
-                self._add_text_tokens(part.text, joint_marks)
+                self._add_text_tokens(part.text, joint_tokens)
                 file, stored_lines = locate_stores(part.text, part.stores, self.files)
                 for stored_line in stored_lines:
                     self._add_value_name(file, stored_line, f"law.{part.name}.{{}}".format)
@@ -148,23 +150,25 @@ class _TokenCollector:
 
         A line gets the tokens of all results that depend on it (data-flow analysis).
         """
-        dependence = propagate_marks(make_readable(kernel), lambda line: self._find_line_tokens(kernel.name, line))
-        for parameter, marks in dependence.by_parameter.items():
-            self.tokens_by_parameter[parameter] |= marks
+        dependence = compute_backward_slices(
+            make_readable(kernel), lambda line: self._find_line_tokens(kernel.name, line)
+        )
+        for parameter, tokens in dependence.by_parameter.items():
+            self.tokens_by_parameter[parameter] |= tokens
         self._add_stores(kernel, dependence.by_target)
 
-    def _add_stores(self, kernel: Kernel, tokens_by_target: Mapping[Key, Marks]) -> None:
+    def _add_stores(self, kernel: Kernel, tokens_by_target: Mapping[Key, Tokens]) -> None:
         """Add tokens and values of all stores of a kernel to `lines` and `values`.
 
         tokens_by_target: the tokens of each stored value.
         """
         for function_lines in locate_function(kernel, self.files):
             for stored_line in function_lines.lines:
-                marks = tokens_by_target.get(stored_line.target, NO_MARKS) | self._get_single_line_tokens(
+                tokens = tokens_by_target.get(stored_line.target, NO_TOKENS) | self._get_single_line_tokens(
                     kernel.name, stored_line.target
                 )
                 for number in stored_line.lines:
-                    self.lines[function_lines.file][number] |= marks
+                    self.lines[function_lines.file][number] |= tokens
                 self._add_value_name(
                     function_lines.file,
                     stored_line,
@@ -228,7 +232,7 @@ class _TokenCollector:
             return f"lambda.{self.multiplier_locals[key]}"
         return f"rhs.{name}" if row and name in self.right_hand_side_locals else ""
 
-    def _find_line_tokens(self, function_name: str, line: Statement | Branch) -> Marks:
+    def _find_line_tokens(self, function_name: str, line: Statement | Branch) -> Tokens:
         """Return the highlighting tokens of the value that a line of a C function stores, before their propagation.
 
         A mass gets the token of its body, an entry of Φ, ν or γ that of its row, and an entry of Φ_q its own. Terms of
@@ -238,21 +242,21 @@ class _TokenCollector:
         if function_name == "mass_matrix" and index >= 0:
             return frozenset({f"body-{self.model.bodies[index // 3].name}"})
         if function_name in RESULT_SYMBOLS:
-            name_marks = self._get_term_tokens(target) if function_name == "constraints" else NO_MARKS
+            term_tokens = self._get_term_tokens(target) if function_name == "constraints" else NO_TOKENS
             if index < 0:
-                return name_marks
+                return term_tokens
             if function_name == "jacobian":
                 row, column = divmod(index, len(self.model.q))
                 number = self.row_numbers.get(self.all_rows[row].name)
-                return name_marks | ({make_entry_token(number, column + 1)} if number else NO_MARKS)
-            return name_marks | self._get_row_tokens(self.all_rows[index].name)
+                return term_tokens | ({make_entry_token(number, column + 1)} if number else NO_TOKENS)
+            return term_tokens | self._get_row_tokens(self.all_rows[index].name)
         if function_name in ("dynamics", "closures", "closure_rates"):
             return self._find_constraint_tokens(function_name, line.declared_local, array, index)
         if function_name == STEP:
             return self._get_row_tokens(self.loop_row_by_local.get(line.declared_local, ""))
-        return NO_MARKS
+        return NO_TOKENS
 
-    def _find_constraint_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Marks:
+    def _find_constraint_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Tokens:
         """Return the token of the constraint equation of a value that `dynamics` or a function of loop closures stores.
 
         It follows from the index in the array phi, phi_dot or out (negative: none), or from the local's name rhs_<row>.
@@ -265,15 +269,15 @@ class _TokenCollector:
         name = next((row.name for row in rows if local_name == make_identifier(f"rhs_{row.name}")), "")
         return self._get_row_tokens(name)
 
-    def _get_row_tokens(self, name: str) -> Marks:
+    def _get_row_tokens(self, name: str) -> Tokens:
         """Return the token of a constraint equation by its name as a set; empty if the motion does not contain it."""
-        return frozenset({make_row_token(self.row_numbers[name])}) if name in self.row_numbers else NO_MARKS
+        return frozenset({make_row_token(self.row_numbers[name])}) if name in self.row_numbers else NO_TOKENS
 
-    def _get_term_tokens(self, target: Key) -> Marks:
+    def _get_term_tokens(self, target: Key) -> Tokens:
         """Return the token "name-LOCAL" of a local that is a term of Φ in the document, as a set; empty for others."""
-        return frozenset({f"name-{target}"}) if target in self.term_names else NO_MARKS
+        return frozenset({f"name-{target}"}) if target in self.term_names else NO_TOKENS
 
-    def _get_single_line_tokens(self, function_name: str, target: Key) -> Marks:
+    def _get_single_line_tokens(self, function_name: str, target: Key) -> Tokens:
         """Return the token that is not propagated to other lines: of the sum of a component of Φ, or of a multiplier.
 
         The set is empty for other lines.
@@ -284,9 +288,9 @@ class _TokenCollector:
             return frozenset({make_sum_token(number)} if number else ())
         if function_name == "dynamics" and array == "lambda" and 0 <= index < len(self.model.rows):
             return self._get_row_tokens(self.model.rows[index].name)
-        return NO_MARKS
+        return NO_TOKENS
 
-    def _add_text_tokens(self, text: str, tokens: Marks) -> None:
+    def _add_text_tokens(self, text: str, tokens: Tokens) -> None:
         """Add tokens to all lines of a text, such as a function, in the C file that contains it.
 
         Nothing is added if no file contains the text.
@@ -302,24 +306,27 @@ class _TokenCollector:
         the parameters from which they are computed.
         """
         kernel = self.program.prepare
-        places = {s.name: self.model.parameter_table.find_place(s) for s in self.model.parameter_table.list_symbols()}
+        places = {
+            s.name: self.model.parameter_table.find_storage_location(s)
+            for s in self.model.parameter_table.list_symbols()
+        }
         entry_names = {entry.symbol.name for entry in self.model.parameter_table.entries.values()}
-        marks_by_name = {
+        tokens_by_name = {
             name: self.tokens_by_parameter[place] | ({f"number-{name}"} if name in entry_names else set())
             for name, place in places.items()
         }
-        dependence = propagate_marks(
-            make_readable(kernel), lambda line: frozenset(marks_by_name.get(_find_stored_parameter(line, places), ()))
+        dependence = compute_backward_slices(
+            make_readable(kernel), lambda line: frozenset(tokens_by_name.get(_find_stored_parameter(line, places), ()))
         )
-        for target, marks in dependence.by_target.items():
-            self.tokens_by_parameter[target] |= marks
+        for target, tokens in dependence.by_target.items():
+            self.tokens_by_parameter[target] |= tokens
         self._add_stores(kernel, dependence.by_target)
 
-    def get_tokens_by_address(self) -> dict[str, Marks]:
+    def get_tokens_by_address(self) -> dict[str, Tokens]:
         """Return {address: highlighting tokens} of all run-time parameters; called after `collect_tokens`."""
         table = self.model.parameter_table
         return {
-            entry.address: frozenset(self.tokens_by_parameter[table.find_place(entry.symbol)])
+            entry.address: frozenset(self.tokens_by_parameter[table.find_storage_location(entry.symbol)])
             for entry in table.entries.values()
         }
 
@@ -337,7 +344,7 @@ def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, Place]
     return next((name for name, place in places.items() if line.target in (name, place)), "")
 
 
-def list_yaml_tokens(model: Model, highlights: HighlightIndex) -> dict[int, Marks]:
+def list_yaml_tokens(model: Model, highlights: HighlightIndex) -> dict[int, Tokens]:
     """Return {line of the mechanism's file: highlighting tokens}: of its entries, and of what depends on its numbers.
 
     Constraint equations and their entries of Φ_q belong to the line of their joint or drive. Each line also has the

@@ -170,8 +170,9 @@ class ValueFormatter:
         factor = "" if digits == "1" else rf"{digits} \cdot "
         return Formula(rf"{factor}10^{{{int(power)}}}", f"{digits}e{power}")
 
-    def list_body_quantities(self, part: str) -> list[tuple[Text, ...]]:
-        """Return the table rows (address, value) of the parameters of bodies in the section `part`, "sides" or "shape".
+    def list_body_quantities(self, section: str) -> list[tuple[Text, ...]]:
+        """Return the table rows (address, value) of the parameters of bodies in a section of bodies, "sides" or
+        "shape".
 
         Choices of materials, and coordinates of sides, are left out.
         """
@@ -181,7 +182,7 @@ class ValueFormatter:
         return [
             make_row(f"{path[1]}.{'.'.join(path[3:])}", self.format_parameter(e))
             for e, path in entries_with_path
-            if path[2] == part and not (e.choice_words or part == "sides" and len(path) > 4)
+            if path[2] == section and not (e.choice_words or section == "sides" and len(path) > 4)
         ]
 
     def list_densities(self) -> list[tuple[Text, ...]]:

@@ -32,7 +32,7 @@ from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.play import make_play_sections
 from gudgeon.generator.targets.latex.reduction import make_reduction_sections
 from gudgeon.generator.targets.latex.render import render_document
-from gudgeon.generator.targets.latex.trace import Functions, make_functions, make_highlight_index
+from gudgeon.generator.targets.latex.trace import Functions, make_highlight_index, make_scene_functions
 from gudgeon.language.text_output import format_one_line
 
 # docs/physics.md
@@ -121,12 +121,12 @@ def _mentions_paper(block: Block) -> bool:
 
 def render_equations_tex(model: Model) -> str:
     """Return the equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
-    return render_document(make_document(model, make_functions(model)), "tex")
+    return render_document(make_document(model, make_scene_functions(model)), "tex")
 
 
 def render_equations_text(model: Model) -> str:
     """Return the equations of a scene as plain Unicode text, 100 columns wide."""
-    return render_document(make_document(model, make_functions(model)), "txt")
+    return render_document(make_document(model, make_scene_functions(model)), "txt")
 
 
 def render_equations_html(

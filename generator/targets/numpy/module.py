@@ -47,7 +47,7 @@ _ABOUT = (
 )
 
 
-class _Doubles(SimpleNamespace):
+class _DoubleNamespace(SimpleNamespace):
     """Contain parameters whose division by 0 gives infinity as in C, since `where` may discard the result."""
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -96,7 +96,7 @@ class ClosedLinkage:
         Calls the emitted function `prepare`. Divisions by zero give infinities, as in C.
         """
         addresses = self.model.parameter_table.entries
-        p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.parameter_table.tables.items()})
+        p = _DoubleNamespace(**{name: [0.0] * len(table) for name, table in self.model.parameter_table.tables.items()})
         ordered_values = [values.get(address, 0.0) for address in addresses]
         with np.errstate(all="ignore"):
             self.functions["prepare"](ordered_values, [address in values for address in addresses], p)
@@ -430,7 +430,7 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
         body += indent_lines(
             [
                 *_print_dry_contact(joint_with_play),
-                *print_statements(joint_with_play.share),
+                *print_statements(joint_with_play.blend),
                 "if share < 1:",
                 f"    film = {', '.join(_FILM)}",
                 "    F = tuple(b + share*(a - b) for a, b in zip(F, film))",

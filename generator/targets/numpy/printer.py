@@ -23,8 +23,8 @@ from gudgeon.generator.ir.statements import (
     DeclareBranches,
     Guard,
     Jump,
-    Largest,
     Line,
+    MaxMagnitude,
     Return,
     SolveDependentRows,
     Statement,
@@ -45,7 +45,10 @@ _BRANCH_ARGUMENTS = ("branch", "g", "corner")
 
 
 def print_name(key: Key) -> str:
-    """Return the Python expression of a local or place; the field `lambda` becomes `rhs.lambda_[3]`."""
+    """Return the Python expression of a local or storage location.
+
+    A name that is a Python keyword gets an underscore: the field `lambda` becomes `rhs.lambda_[3]`.
+    """
     if isinstance(key, Place):
         members = (f"[{step}]" if isinstance(step, int) else f".{print_name(step)}" for step in key.path)
         return print_name(key.base) + "".join(members)
@@ -274,7 +277,7 @@ class LinePrinter:
             case Guard(test=Test() as test):
                 condition = f"{self.print_test(line.condition)} and " if line.condition else ""
                 return [*break_code(f"if {condition}not ({self.print_test(test)}):"), f"    return {line.number}"]
-            case Largest():
+            case MaxMagnitude():
                 inner = ", ".join(f"np.abs({self.print_expression(x)})" for x in line.values)
                 value = f"max({inner}, 0.0)" if line.values else "0.0"
                 return print_assignment(f"{line.target}[0]", value, is_call=True)

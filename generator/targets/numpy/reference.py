@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import N_ENERGY, N_REACTION_COLUMNS
 from gudgeon.contract.kernel_source import KernelSource, make_given_parameters
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kernels.outputs import find_constraining_joints, find_element_series
+from gudgeon.generator.kernels.outputs import find_constraining_joints, list_force_element_series
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, read_parameter
 from gudgeon.generator.targets.numpy.module import NumPyModel, _compile_functions, print_called_curves
@@ -257,7 +257,7 @@ def _evaluate_functions(
         "clearance": np.array([[clearance.Fx, clearance.Fy] for clearance in result.clearance]).ravel(),
     }
     reactions, drives = N_REACTION_COLUMNS * len(find_constraining_joints(model)), len(model.scene.mechanism.drives)
-    out = [np.zeros(size) for size in (reactions, drives, len(find_element_series(model)), N_ENERGY)]
+    out = [np.zeros(size) for size in (reactions, drives, len(list_force_element_series(model)), N_ENERGY)]
     try:
         with np.errstate(all="ignore"):
             compute_outputs(t, q.tolist(), v.tolist(), p, result.lambda_, *out)

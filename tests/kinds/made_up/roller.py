@@ -58,6 +58,6 @@ JOINT = JointType(
     ("m",),
     rows,
     __doc__,
-    Symbol(draw, place, gap=gap, reach=reach),
+    Symbol(draw, place, find_closure_error=gap, find_radii=reach),
     reaction_at="first",
 )
