@@ -122,10 +122,11 @@ class AssemblyProblem:
         return step
 
     def build_first_guess(self) -> Array:
-        """Return the guessed configuration: guessed and held values, angles that equations in angles alone determine.
+        """Return the guessed configuration (n,), from which Newton's method starts.
 
-        Other coordinates are 0. With guessed points, the configuration is fitted to them. Sets `first_guess` and
-        `max_distance`.
+        Guessed coordinates and those of `start.set` have the file's values. Angles follow where equations that contain
+        angles alone determine them. Other coordinates are 0. With guessed points, the configuration is fitted to them.
+        Sets `first_guess` (before the fit) and `max_distance`.
         """
         q = np.zeros(len(self.coordinate_index))
         q[self.guessed] = list(self.guess.values())
@@ -207,18 +208,22 @@ class AssemblyProblem:
         return compute_point_position(self.linkage.source, self.p, q, point) - target
 
     def _fit_guessed_points(self, q: Array) -> Array:
-        """Return the least-squares fit of the equations, guessed coordinates and guessed points, found from q."""
-        held = np.diag(self.weight)[self.guessed]
+        """Return the configuration (n,) of least squared residuals, found from q by Levenberg–Marquardt.
+
+        Residuals are those of the equations, and the differences from q in guessed coordinates and from the file's
+        positions in guessed points.
+        """
+        guess_rows = np.diag(self.weight)[self.guessed]
 
         def compute_residuals(x: Array) -> Array:
             """Return the residuals of equations, guessed coordinates and guessed points."""
             off = [self.compute_point_error(x, point, target) / self.size for point, target in self.points]
-            return np.concatenate([self.compute_residual(x) / self.row_scale, held @ (x - q), *off])
+            return np.concatenate([self.compute_residual(x) / self.row_scale, guess_rows @ (x - q), *off])
 
         def compute_jacobian(x: Array) -> Array:
             """Return the Jacobian of these residuals."""
             rows = self.compute_jacobian(x) / self.row_scale[:, None]
-            return np.concatenate([rows, held, self._compute_guessed_points_jacobian(x) / self.size])
+            return np.concatenate([rows, guess_rows, self._compute_guessed_points_jacobian(x) / self.size])
 
         return self._minimize_residual(q, compute_residuals, compute_jacobian)
 
@@ -252,7 +257,7 @@ class AssemblyProblem:
         return q
 
     def _compute_guessed_points_jacobian(self, q: Array) -> Array:
-        """Return the Jacobian of the positions of the guessed points with respect to q, (2 · points, n)."""
+        """Return the Jacobian of the positions (x, y) of the guessed points with respect to q, (2 · points, n)."""
         J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
         for k, (point, _) in enumerate(self.points):
             i = source.bodies[point.body].index
@@ -372,7 +377,11 @@ class AssemblyProblem:
         return q
 
     def determine_angles(self, q: Array) -> Array:
-        """Return a copy of q with the angles that drives and sliders alone determine, by one Newton step."""
+        """Return a copy of q in which the equations that contain angles alone are solved for the angles.
+
+        These are equations of drives and sliders. They are linear in the angles: one Newton step of least weighted norm
+        solves them. Without such equations the copy is equal to q.
+        """
         rows = np.abs(self.compute_jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
         matrix = self.compute_jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()

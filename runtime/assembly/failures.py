@@ -117,7 +117,7 @@ def _format_open_equation(problem: AssemblyProblem, q: Array, index: int) -> str
 def _describe_wrong_lengths(problem: AssemblyProblem, q: Array) -> str:
     """Return a text on up to three links, of which a change of one would close the linkage; "" if there is none.
 
-    Nothing is searched for more than MAX_SEARCHED_COORDINATES coordinates.
+    "" also if the linkage has more than MAX_SEARCHED_COORDINATES coordinates: no change is searched then.
     """
     if problem.linkage.n > MAX_SEARCHED_COORDINATES:
         return ""

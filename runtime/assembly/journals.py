@@ -17,8 +17,8 @@ from gudgeon.model.contours import (
     compute_corner_approach,
     compute_corner_penetration,
     compute_max_clearance,
-    find_contour,
     find_slider_dimensions,
+    get_contour_depths,
     interpolate_depth,
 )
 
@@ -107,7 +107,10 @@ def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth:
 
 
 def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
-    """Yield a note on each joint whose journal or corner starts inside the wall; rigid surfaces are left out."""
+    """Yield a note on each joint whose journal or corner starts inside the wall: its eccentricity exceeds c.
+
+    Joints with rigid surfaces are left out. The depth of a contour does not count.
+    """
     for joint, e, c in _iterate_joints_with_start_position(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
             wall = "its wall" if joint.is_corner else "its bearing's wall"
@@ -149,7 +152,7 @@ def describe_contacts_without_onset(
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
     Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). Left out are contacts that resume
-    from another run, with their δ̇⁻ in discrete_states (n_memory,), and laws that do not depend on δ̇⁻.
+    from another run, with their δ̇⁻ in discrete_states (n_discrete_states,), and laws that do not depend on δ̇⁻.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(discrete_states[k])]
     notes: list[str] = []
@@ -199,7 +202,7 @@ def _find_contour_depth(
 
     It is 0 without a contour.
     """
-    if (depths := find_contour(compiled.source, p, joint.name)) is None:
+    if (depths := get_contour_depths(compiled.source, p, joint.name)) is None:
         return 0.0
     theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
     return float(interpolate_depth(depths, math.atan2(eccentricity[1], eccentricity[0]) - theta))

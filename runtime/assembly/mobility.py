@@ -79,7 +79,7 @@ def find_mobility(
     )
 
 
-def compute_free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
+def compute_admissible_velocities(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
     """Return an orthonormal basis (n, dof) of the velocities that all equations allow at q.
 
     Angles count as arcs at the mechanism's size. It has no columns if the Jacobian is not finite.

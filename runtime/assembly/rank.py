@@ -133,7 +133,8 @@ def _find_dependent_rows(
 ) -> tuple[str, ...]:
     """Return the names of the rows that depend on each other, after scaling, so that units do not matter.
 
-    matrix: rows of Φ_q. relative_limit: as in `compute_left_null_maxima`.
+    matrix: rows of Φ_q. relative_limit: as in `compute_left_null_maxima`; a row depends on others if its magnitude in
+    left null vectors exceeds 1e-6.
     """
     maxima = compute_left_null_maxima(scale_rows(compiled, p, matrix), relative_limit)
     return tuple(name for name, maximum in zip(names, maxima, strict=True) if maximum > 1e-6)

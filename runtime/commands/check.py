@@ -123,8 +123,10 @@ def _format_counts(mechanism: Mechanism) -> str:
 
 
 def _build_scene_counts(source: KernelSource) -> dict[str, int]:
-    """Return the counts of a scene for the table, by label: unknowns, constraint equations, degrees of freedom,
-    operations.
+    """Return the counts of a scene for the table, by label.
+
+    They are unknowns, constraint equations, degrees of freedom, non-zeros of Φ_q, joints with play, parameters, depths
+    of contours if there are any, and the operations of each C function.
     """
     counts = {
         "unknowns": len(source.coordinates),
@@ -138,7 +140,7 @@ def _build_scene_counts(source: KernelSource) -> dict[str, int]:
     return counts | {_format_kernel_label(name): count for name, count in source.operations.items()}
 
 
-def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
+def find_eliminated_drive_equations(source: KernelSource) -> tuple[str, ...]:
     """Return the names of constraint equations of drives that the tree solves: their coordinates are functions of time.
 
     In the full formulation there are none.
@@ -170,7 +172,7 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
         "formulation": source.formulation,
         "tree": list(source.tree),
         "closures": list(source.closures),
-        "driven": list(find_solved_drives(source)),
+        "driven": list(find_eliminated_drive_equations(source)),
         "operations of the accelerations": operations,
         "methods": [*source.methods, *(REFERENCE_SOLVERS if _can_run_in_reference_solvers(source) else ())],
         "auto begins with": select_first_method(source),

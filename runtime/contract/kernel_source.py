@@ -251,7 +251,7 @@ class KernelSource:
         return tuple(dict.fromkeys(joint.joint for joint in self.clearances if joint.is_corner))
 
     @property
-    def n_memory(self) -> int:
+    def n_discrete_states(self) -> int:
         """Return the number of discrete states: δ̇⁻ per joint with play, mode per friction, then internal states."""
         return len(self.clearances) + len(self.frictions) + len(self.states)
 

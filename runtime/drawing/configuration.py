@@ -59,7 +59,7 @@ class Configuration:
 
     @cached_property
     def outline_points(self) -> Mapping[str, tuple[str, ...]]:
-        """Names of the points of each body that are drawn, by body.
+        """Return the names of the points of each body that are drawn, by body.
 
         First the ends of joints, drives and force elements that join points, then named points of the file other than
         origin and com. A body without such points is absent.

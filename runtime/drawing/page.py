@@ -188,7 +188,10 @@ def _format_name_element(label_text: str, role: str, part: str, sketch: Sketch) 
 
 
 def _encode_changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:
-    """Return each frame with 0 for each entry that the previous frame has too; the first frame is complete."""
+    """Delta-encode frames: return each with 0 for each entry that the previous frame has too.
+
+    The first frame is complete.
+    """
     encoded = [list(frames[0])]
     for previous, frame in zip(frames, frames[1:], strict=False):
         encoded.append([0 if old == new else new for old, new in zip(previous, frame, strict=True)])

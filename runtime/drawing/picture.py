@@ -76,7 +76,7 @@ def compute_figure_size(sketch: Sketch, max_length: float = MAX_SIDE_IN) -> tupl
     """Return width and height in inches that suit a sketch.
 
     The longer side is `max_length`, but grows up to MAX_GROWN_SIDE_IN so that half a bar's width is at least
-    MIN_UNIT_IN.
+    MIN_UNIT_IN. The width is at least MIN_SIDE_IN, the height 0.75 MIN_SIDE_IN.
     """
     width, height = (float(x) for x in sketch.high - sketch.low)
     scale = max(max_length, min(MAX_GROWN_SIDE_IN, MIN_UNIT_IN * max(width, height) / sketch.unit)) / max(width, height)

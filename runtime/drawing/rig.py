@@ -393,9 +393,9 @@ class _FrameSearch:
     def attach_shape(self, shape: Shape, shapes_by_configuration: Sequence[Shape | None]) -> MovingShape:
         """Return the shape with a moving frame for each point: the first that reproduces it within the tolerance.
 
-        Without one it is the frame with the smallest rank (see `_fit_frame`). `shapes_by_configuration` are its
-        drawings at all configurations, None where it is absent. If fewer than MIN_CONFIGURATIONS have the same number
-        of points, only the first is used.
+        Without one it is the frame of the smallest penalized error (see `_fit_frame`). `shapes_by_configuration` are
+        its drawings at all configurations, None where it is absent. If fewer than MIN_CONFIGURATIONS have the same
+        number of points, only the first is used.
         """
         points = _get_shape_points(shape)
         indices = [
@@ -408,15 +408,17 @@ class _FrameSearch:
         indices = indices if len(indices) >= MIN_CONFIGURATIONS else list(range(1))
         positions = np.array([_get_shape_points(shapes_by_configuration[k]) for k in indices])  # type: ignore[arg-type]
         best_frame_indices, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
-        offsets, best_ranks = np.zeros((len(points), 4)), np.full(len(points), np.inf)
+        offsets, best_penalized_errors = np.zeros((len(points), 4)), np.full(len(points), np.inf)
         for index in range(len(self.moving_frames)):
-            if not (best_ranks > self.tolerance).any():
+            if not (best_penalized_errors > self.tolerance).any():
                 break
-            fitted, rank, errors = self._fit_frame(index, positions, indices)
-            is_better = (best_ranks > self.tolerance) & (rank < (1.0 - 1e-6) * best_ranks)
-            best_frame_indices[is_better], best_ranks[is_better], best_errors[is_better] = (
+            fitted, penalized_errors, errors = self._fit_frame(index, positions, indices)
+            is_better = (best_penalized_errors > self.tolerance) & (
+                penalized_errors < (1.0 - 1e-6) * best_penalized_errors
+            )
+            best_frame_indices[is_better], best_penalized_errors[is_better], best_errors[is_better] = (
                 index,
-                rank[is_better],
+                penalized_errors[is_better],
                 errors[is_better],
             )
             offsets[is_better] = fitted[is_better]
@@ -432,10 +434,12 @@ class _FrameSearch:
     def _fit_frame(
         self, frame_index: int, positions: Array, configuration_indices: Sequence[int]
     ) -> tuple[Array, Array, Array]:
-        """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one moving frame.
+        """Fit points in the axes of one moving frame: c₀ + s c₁, with s the length coordinate of the frame.
 
-        A rank is the error, plus 1000 times the error at configurations of the motion if that exceeds the tolerance.
-        The search prefers smaller ranks. `positions` (K, N, 2) belong to `configuration_indices`.
+        c₁ is the slope of a linear regression over the configurations; 0 if the frame has no length or s is constant.
+        c₀ follows from the first configuration. Returns c₀ and c₁ (N, 4), penalized errors (N,) and largest errors
+        (N,) in m. A penalized error is the largest error plus 1000 times that at configurations of the motion, if the
+        latter exceeds the tolerance. `positions` (K, N, 2) of the points belong to `configuration_indices`.
         """
         frames = [self.evaluated_frames[frame_index][k] for k in configuration_indices]
         local_points = np.array(

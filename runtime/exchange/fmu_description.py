@@ -228,8 +228,8 @@ def _format_local_variable(name: str, reference: int, unit: str, attributes: str
 def find_jump_switches(source: KernelSource) -> list[int]:
     """Return the indices of the switching functions across which an expression may be discontinuous.
 
-    They are those with 0 in the array meets[] of the scene's header. Empty for a scene that supports co-simulation
-    only.
+    They are those with 0 in the array is_continuous_switch[] of the scene's header. Empty for a scene that supports
+    co-simulation only.
     """
     if explain_exchange_obstacle(source):
         return []

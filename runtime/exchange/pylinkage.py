@@ -39,9 +39,10 @@ def read_pylinkage(parsed_json: Any) -> Linkage:
 
 
 def _read_name(entry: Entry, key: str, description: str) -> str:
-    """Return the name under a key of an entry, a text or a number, as text.
+    """Return the name under a key of an entry as text: a non-empty text or an integer.
 
-    `description` names the entry in the error. Raises InputError if there is no name.
+    `description` names the entry in the error. Raises InputError, with the entry's type, if the key is missing or has
+    another value.
     """
     name = entry.get(key)
     if isinstance(name, bool) or not isinstance(name, (str, int)) or name == "":

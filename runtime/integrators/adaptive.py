@@ -52,8 +52,8 @@ from gudgeon.model.parameters import read_parameter_value
 from gudgeon.model.sizes import (
     compute_mechanism_sizes,
     compute_size,
+    scatter_lengths,
     select_lengths,
-    spread_lengths,
 )
 
 RTOL = 1e-8  # default tolerance of a run
@@ -113,12 +113,12 @@ def select_explicit_method(source: KernelSource, rtol: float) -> str:
     """Return the name of the explicit method of `auto`: TAYLOR for tolerances at which it is faster, else EXPLICIT.
 
     The generator predicts this tolerance from the number of operations (generator/kernels/taylor.py). A library without
-    the series has EXPLICIT only: `lacks_series`.
+    the series has EXPLICIT only: `lacks_taylor_series`.
     """
     return TAYLOR if source.taylor and rtol < source.taylor_below else EXPLICIT
 
 
-def lacks_series(source: KernelSource, rtol: float) -> bool:
+def lacks_taylor_series(source: KernelSource, rtol: float) -> bool:
     """Return whether `auto` integrates by Taylor series at a tolerance, but the library of the scene has none.
 
     The variant TAYLOR of the scene has them.
@@ -225,7 +225,7 @@ def _compute_tolerances_of_run(compiled: CompiledModel, lengths: Array, rtol: fl
 
     `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
     """
-    p = spread_lengths(compiled.source, lengths)
+    p = scatter_lengths(compiled.source, lengths)
     size = compute_size(compiled.source, p)
     scale, least = compute_tolerances_of_values(compiled.source, p, size, rtol)
     return scale[None], np.array([least]), np.array([size])

@@ -35,7 +35,7 @@ from gudgeon.integrators import adaptive, lanes
 from gudgeon.integrators.failure import INTERRUPTED, build_audit_error, build_run_error
 from gudgeon.integrators.kinematic_ensemble import (
     KinematicEnsemble,
-    count_kinematic_rows,
+    count_runs_per_kinematic_call,
     has_kinematic_ensemble,
 )
 from gudgeon.integrators.lanes import LaneProvider, Lanes
@@ -98,7 +98,7 @@ class Runs(StoredRuns):
         )  # rows of finished runs that are not stored yet
         self.n_rows_per_thread = self.n_lanes + n_unstored_rows  # rows of samples per thread
         if is_kinematic:
-            self.n_rows_per_thread = count_kinematic_rows(N)
+            self.n_rows_per_thread = count_runs_per_kinematic_call(N)
         super().__init__(
             compiled,
             method,
@@ -165,7 +165,7 @@ class Runs(StoredRuns):
         x, nc = self.arrays, len(self.compiled.source.clearances)
         for i, start in enumerate(starts):
             x["start"][i] = np.concatenate([start.q, start.v])
-            x["initial_discrete_states"][i, : self.compiled.n_memory] = start.memory
+            x["initial_discrete_states"][i, : self.compiled.n_discrete_states] = start.memory
             if start.state is not None:
                 x["codes"][i, :nc] = start.state
                 self.resumed.add(i)
@@ -263,7 +263,7 @@ class Runs(StoredRuns):
             self.times.get_times(i),
             x["start"][i, :n],
             x["start"][i, n:],
-            x["initial_discrete_states"][i, : self.compiled.n_memory],
+            x["initial_discrete_states"][i, : self.compiled.n_discrete_states],
             float(x["step"][i]),
             state=x["codes"][i, :joints] if i in self.resumed else None,
             method=self.method,

@@ -27,7 +27,7 @@ class Steps:
     q: Array  # (k, n)
     v: Array
     work: Array  # (k, 3)
-    memory: Array  # (k, n_memory)
+    memory: Array  # (k, n_discrete_states)
     state: NDArray[Any]  # (k, n_clearances) int8
     is_after_jump: NDArray[np.bool_]  # (k,) whether the run began or a quantity jumped since the row before
 
@@ -53,7 +53,7 @@ class StepLog:
     def __init__(self, compiled: CompiledModel, observer: StepCallback | None = None) -> None:
         self.compiled, self.observer = compiled, observer
         joints = len(compiled.source.clearances)
-        self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
+        self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_discrete_states, 1), max(joints, 1))
         self.rows = np.zeros((N_ROWS_OF_BLOCK, sum(self.widths)))
 
     def register_rows(self, run: Any) -> None:
@@ -82,7 +82,7 @@ class StepLog:
             y[:, :n],
             y[:, n : 2 * n],
             y[:, 2 * n :],
-            discrete_states[:, : self.compiled.n_memory],
+            discrete_states[:, : self.compiled.n_discrete_states],
             state[:, :joints].astype(np.int8),
             head[:, RECORD_JUMPED] > 0.0,
         )

@@ -55,9 +55,13 @@ EPSILON = float(np.finfo(np.float64).eps)
 
 
 @cache
-def build_event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
+def build_event_dtype(n: int, n_discrete_states: int, n_clearances: int) -> np.dtype[Any]:
     """Return NumPy's type of a user event with its state: y is q, v (n each) and the works; cached by sizes."""
-    state_fields = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
+    state_fields = [
+        ("y", "f8", (2 * n + N_WORK,)),
+        ("memory", "f8", (n_discrete_states,)),
+        ("state", "i1", (n_clearances,)),
+    ]
     return np.dtype([("event", "i4"), ("t", "f8"), *state_fields])
 
 
@@ -208,7 +212,7 @@ def compute_time_resolution(t: Array) -> float:
 
 def make_empty_event_states(compiled: CompiledModel) -> NDArray[Any]:
     """Return an empty array of events with states (build_event_dtype)."""
-    return np.zeros(0, dtype=build_event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
+    return np.zeros(0, dtype=build_event_dtype(compiled.n, compiled.n_discrete_states, len(compiled.source.clearances)))
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
@@ -219,7 +223,9 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
     """
     joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
     t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
-    y, discrete_states = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
+    y, discrete_states = (
+        np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_discrete_states)
+    )
     state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
     arrays = (
         compiled.pointer(t),
@@ -233,7 +239,7 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
         part = np.zeros(count, dtype=parts[0].dtype)
         part["event"], part["t"], part["y"] = event[:count], t[:count], y[:count]
-        part["memory"], part["state"] = discrete_states[:count, : compiled.n_memory], state[:count, :joints]
+        part["memory"], part["state"] = discrete_states[:count, : compiled.n_discrete_states], state[:count, :joints]
         parts.append(part)
     fetched = np.concatenate(parts)
     is_undefined = fetched["event"] >= len(compiled.source.events)

@@ -77,8 +77,8 @@ DISK_FULL_MESSAGES = {
 def build_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
     """Return the compiler's flags for a command; `portable` leaves out those that bind the library to this CPU.
 
-    quick: no optimization; the compiler then needs a third of the time. Results are the same, since the order of sums
-    is the same at every level.
+    quick: no optimization (-O0); the compiler then needs a third of the time. Results are the same, since the order of
+    sums is the same at every level. Zig and quick compilations do not get GCC_FLAGS.
     """
     machine = os.uname().machine
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"

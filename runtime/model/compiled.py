@@ -49,11 +49,11 @@ class CompiledModel:
         self.text = text  # of the mechanism's file
         self.__dict__.update(lib=library.lib, ffi=library.ffi)
         self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
-        self.n_memory = source.n_memory
-        self._free_contact_states = np.full(max(self.n_memory, 1), np.nan)
+        self.n_discrete_states = source.n_discrete_states
+        self._free_contact_states = np.full(max(self.n_discrete_states, 1), np.nan)
         self._free_contact_states.flags.writeable = False
         self._choices = find_choices(source)
-        self.free_runs: dict[Any, list[Any]] = {}  # unused runs with their arrays (integrators/single_run.py)
+        self.unused_runs: dict[Any, list[Any]] = {}  # unused runs with their arrays (integrators/single_run.py)
         closed = [row.name for row in source.start_rows]
         self._open_play_rows = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
@@ -92,7 +92,10 @@ class CompiledModel:
 
     @cached_property
     def may_drive_acceleration_jump(self) -> bool:
-        """Return whether an acceleration that a drive prescribes may jump."""
+        """Return whether an acceleration that a drive prescribes may jump, as `may_acceleration_jump` finds it.
+
+        The sample at a jump then stores the left limit of the accelerations (left_limit.py).
+        """
         from gudgeon.model.left_limit import may_acceleration_jump
 
         return may_acceleration_jump(self)
@@ -128,7 +131,7 @@ class CompiledModel:
 
         left_out = "lib", "ffi", CACHED_VALUES
         attributes = {name: value for name, value in self.__dict__.items() if name not in left_out}
-        return attributes | {"free_runs": {}, "declarations": declared.SHA256}
+        return attributes | {"unused_runs": {}, "declarations": declared.SHA256}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the pickled state. Raises GudgeonError if a version with other arrays has written it."""
@@ -179,10 +182,10 @@ class CompiledModel:
             mask = as_c_array(is_given[rows], "is_given", shape, dtype=FLAG, always_copy=True)
             if zero_indices:
                 values[:, zero_indices], mask[:, zero_indices] = 0.0, True
-            self.prepare_rows(values, mask, p[rows])
+            self.prepare_runs_in_place(values, mask, p[rows])
         return p
 
-    def prepare_rows(self, values: Array, mask: NDArray[np.uint8], p: Array) -> None:
+    def prepare_runs_in_place(self, values: Array, mask: NDArray[np.uint8], p: Array) -> None:
         """Compute values p (n, n_parameters + n_derived) from arrays (n, n_parameters) in the layout of C, in place.
 
         Runs are computed one by one if a choice is given.
@@ -266,9 +269,9 @@ class CompiledModel:
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None) -> Array:
         """Return (q̇, q̈, powers of drives, forces and joints with play), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
-        `discrete_states` (n_memory,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of frictions,
-        internal states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or a state
-        that is not finite.
+        `discrete_states` (n_discrete_states,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of
+        frictions, internal states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or
+        a state that is not finite.
         """
         out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(
@@ -367,7 +370,8 @@ class CompiledModel:
     ) -> Evaluation:
         """Return all quantities of a run (accelerations, multipliers, joint forces and others) at N samples.
 
-        t: (N,). q, v: (N, n). discrete_states: (N, n_memory). p: one set of parameter values, (n_p,), for all samples.
+        t: (N,). q, v: (N, n). discrete_states: (N, n_discrete_states). p: one set of parameter values, (n_p,), for all
+        samples.
 
         `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `field_names`: the
         requested fields of Evaluation. Raises SingularError for a sample that has no accelerations.
@@ -375,15 +379,20 @@ class CompiledModel:
         return evaluate(self, t, q, v, discrete_states, p, poll_cancellation, field_names)
 
     def as_discrete_states(self, discrete_states: ArrayLike | None) -> Array:
-        """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction, internal states of laws.
+        """Return the discrete states (n_discrete_states,), as an array for C.
 
+        They are δ̇⁻ per joint with play, mode per friction, internal states of laws.
         None: all joints free, modes unknown; this array is shared and read-only. In a scene without discrete states, an
         array of one number is accepted. Raises ArrayError for another length.
         """
         if discrete_states is None:
             return self._free_contact_states
         array = as_c_array(discrete_states, "memory")
-        return array if not self.n_memory and array.shape == (1,) else as_c_array(array, "memory", (self.n_memory,))
+        return (
+            array
+            if not self.n_discrete_states and array.shape == (1,)
+            else as_c_array(array, "memory", (self.n_discrete_states,))
+        )
 
     def check_pivot(
         self, status: int, t: float, pivot_names: tuple[str, ...] | None = None, p: ArrayLike | None = None

@@ -86,14 +86,14 @@ def evaluate(
     """
     time = as_c_array(t, "t", (None,))
     if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
-        time = np.asarray(time + find_rounding_distance(time))
+        time = np.asarray(time + compute_rounding_distance(time))
     N = len(time)
     check = _check_matrix if N > FIRST_CHUNK_SAMPLES else _convert_matrix
     discrete_states = check(memory, "memory", N, None)
     if (
-        compiled.n_memory or discrete_states.shape[1] > 1
+        compiled.n_discrete_states or discrete_states.shape[1] > 1
     ):  # in a scene without discrete states, one column is accepted too
-        check(discrete_states, "memory", N, compiled.n_memory)
+        check(discrete_states, "memory", N, compiled.n_discrete_states)
     inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", discrete_states))
     evaluation, outputs = allocate_evaluation(compiled, N, field_names)
     failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST_CHUNK_SAMPLES
@@ -127,14 +127,14 @@ def evaluate_runs(
 ) -> Evaluation:
     """Return the quantities at few samples of several runs: sample_counts[i] samples of run i with values p[i].
 
-    The samples of the runs follow each other: t (N,), q and v (N, n), discrete_states (N, n_memory), N =
+    The samples of the runs follow each other: t (N,), q and v (N, n), discrete_states (N, n_discrete_states), N =
     sum(sample_counts). With `mod` in drives the times are shifted by rounding, to the side after a jump. `field_names`:
     the requested fields. Raises ArrayError, SingularError.
     """
-    N, time = sum(sample_counts), t + find_rounding_distance(t) if compiled.has_mod_in_drives else t
+    N, time = sum(sample_counts), t + compute_rounding_distance(t) if compiled.has_mod_in_drives else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
-    input_pointers.append(compiled.pointer(as_c_array(discrete_states, "memory", (N, compiled.n_memory))))
+    input_pointers.append(compiled.pointer(as_c_array(discrete_states, "memory", (N, compiled.n_discrete_states))))
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
     (evaluation, outputs), failed_index = (
         allocate_evaluation(compiled, N, field_names),
@@ -193,7 +193,7 @@ def select_evaluated_rows(evaluation: Evaluation, rows: slice | NDArray[np.intp]
     return Evaluation(*(part[rows] for part in vars(evaluation).values()))
 
 
-def find_rounding_distance(t: Array) -> Array:
+def compute_rounding_distance(t: Array) -> Array:
     """Return the distance (s) from times t within which rounding decides on which side of a switching point t is.
 
     It is 32 |t| times the machine epsilon, at least 1e-100 s.
@@ -300,7 +300,7 @@ def compute_sample_bytes(compiled: CompiledModel) -> int:
     Accelerations are stored for linkages without degrees of freedom only.
     """
     n_derivatives = 2 if compiled.source.degrees_of_freedom else 3
-    n_doubles = 1 + n_derivatives * compiled.n + N_WORK + max(compiled.n_memory, 1)
+    n_doubles = 1 + n_derivatives * compiled.n + N_WORK + max(compiled.n_discrete_states, 1)
     return 8 * n_doubles + max(len(compiled.source.clearances), 1)
 
 

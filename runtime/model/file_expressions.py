@@ -32,7 +32,7 @@ from gudgeon.language.tree import (
     iterate_names,
     replace_names,
 )
-from gudgeon.language.undefined_parts import find_possibly_undefined_cases, find_undefined_part, is_total_expression
+from gudgeon.language.undefined_parts import find_possibly_undefined_cases, find_undefined_part, is_defined_everywhere
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 
@@ -112,7 +112,7 @@ def may_powers_be_undefined(source: KernelSource) -> bool:
     """
     trees = [tree for _, tree in read_expression_trees(source, ("drives", "forces"))]
     has_line = any(part.section == "forces" and part.kind not in DEFINED_EVERYWHERE for part in source.parts)
-    return has_line or any(x.tree for x in source.slots) or not all(map(is_total_expression, trees))
+    return has_line or any(x.tree for x in source.slots) or not all(map(is_defined_everywhere, trees))
 
 
 def explain_undefined_value_after(
@@ -410,7 +410,7 @@ def _has_unbounded_slope(function: Callable[[float], float], point: float) -> bo
 
 
 @dataclass(frozen=True)
-class PartialExpression:
+class PossiblyUndefinedExpression:
     """Hold an expression that may be undefined; `parameter_index`: of the parameter that it
     defines, −1: none; `indices_by_name`: of the parameters in it."""
 
@@ -423,44 +423,48 @@ class PartialExpression:
 def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
     """Return a mask (n,) of runs with p (n, n_parameters + n_derived) that may have an undefined value.
 
-    Values given, by the mask is_given (n, n_parameters), do not count. `describe_undefined_number` decides exactly.
+    Values given, by the mask is_given (n, n_parameters), do not count. `describe_undefined_part` decides exactly.
     """
     has_undefined = np.zeros(len(p), dtype=np.bool_)
-    for partial in _find_affected_expressions(source, p):
-        values_by_name = {name: p[:, k] for name, k in partial.indices_by_name.items()}
-        undefined = find_possibly_undefined_cases(partial.tree, values_by_name)
+    for expression in _find_affected_expressions(source, p):
+        values_by_name = {name: p[:, k] for name, k in expression.indices_by_name.items()}
+        undefined = find_possibly_undefined_cases(expression.tree, values_by_name)
         has_undefined |= (
-            undefined & ~is_given[:, partial.parameter_index].astype(bool)
-            if partial.parameter_index >= 0
+            undefined & ~is_given[:, expression.parameter_index].astype(bool)
+            if expression.parameter_index >= 0
             else undefined
         )
     return has_undefined
 
 
-def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
+def describe_undefined_part(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
     """Return a message on the first expression of a run with an undefined part; "" if there is none.
 
     p: (n_p,). Expressions of parameters that are given, by the mask is_given (n_parameters,), are skipped.
     """
-    for partial in _find_affected_expressions(source, p[np.newaxis]):
-        values_by_name = {name: float(p[k]) for name, k in partial.indices_by_name.items()}
-        if partial.parameter_index >= 0 and is_given[partial.parameter_index]:
+    for expression in _find_affected_expressions(source, p[np.newaxis]):
+        values_by_name = {name: float(p[k]) for name, k in expression.indices_by_name.items()}
+        if expression.parameter_index >= 0 and is_given[expression.parameter_index]:
             continue
-        if (undefined_part := find_undefined_part(partial.tree, values_by_name)) is not None:
+        if (undefined_part := find_undefined_part(expression.tree, values_by_name)) is not None:
             values_text = ", ".join(f"{name} = {number:.6g}" for name, number in values_by_name.items())
-            return f"{partial.address} has a part that is {undefined_part} with {values_text}\n  {REMEDY}"
+            return f"{expression.address} has a part that is {undefined_part} with {values_text}\n  {REMEDY}"
     return ""
 
 
-def _find_affected_expressions(source: KernelSource, p: Array) -> list[PartialExpression]:
-    """Return the partial expressions with a parameter that differs from the file's value in at least one run.
+def _find_affected_expressions(source: KernelSource, p: Array) -> list[PossiblyUndefinedExpression]:
+    """Return the possibly undefined expressions with a parameter that differs from the file's in at least one run.
 
     p: parameter values (n_runs, n_p). Indices and defaults of the parameters are cached in the source.
     """
     cache = vars(source)
     if "partial_indices" not in cache:
         parameter_indices = sorted(
-            {k for partial in find_partial_expressions(source) for k in partial.indices_by_name.values()}
+            {
+                k
+                for expression in list_possibly_undefined_expressions(source)
+                for k in expression.indices_by_name.values()
+            }
         )
         cache["partial_indices"] = parameter_indices
         cache["partial_defaults"] = np.array([source.slots[k].default for k in parameter_indices])
@@ -470,22 +474,22 @@ def _find_affected_expressions(source: KernelSource, p: Array) -> list[PartialEx
         return []
     changed_indices = {parameter_indices[k] for k in np.flatnonzero(is_changed).tolist()}
     return [
-        partial
-        for partial in find_partial_expressions(source)
-        if not changed_indices.isdisjoint(partial.indices_by_name.values())
+        expression
+        for expression in list_possibly_undefined_expressions(source)
+        if not changed_indices.isdisjoint(expression.indices_by_name.values())
     ]
 
 
-def find_partial_expressions(source: KernelSource) -> list[PartialExpression]:
+def list_possibly_undefined_expressions(source: KernelSource) -> list[PossiblyUndefinedExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined; read once for each source."""
     cache = vars(source)
     if "partials" not in cache:
-        cache["partials"] = _read_partial_expressions(source)
-    result: list[PartialExpression] = cache["partials"]
+        cache["partials"] = _read_possibly_undefined_expressions(source)
+    result: list[PossiblyUndefinedExpression] = cache["partials"]
     return result
 
 
-def _read_partial_expressions(source: KernelSource) -> list[PartialExpression]:
+def _read_possibly_undefined_expressions(source: KernelSource) -> list[PossiblyUndefinedExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined, from the source's JSON trees."""
     parameter_index, result = source.slot_index, []
     trees = [(parameter.address, parameter.tree, k) for k, parameter in enumerate(source.slots) if parameter.tree]
@@ -493,6 +497,8 @@ def _read_partial_expressions(source: KernelSource) -> list[PartialExpression]:
         expr = from_json(json.loads(tree))
         paths = dict.fromkeys(name.path for name in iterate_names(expr))
         indices = {name: parameter_index.get(f"parameters.{name}", parameter_index.get(name, -1)) for name in paths}
-        if not is_total_expression(expr):
-            result.append(PartialExpression(address, expr, k, {name: i for name, i in indices.items() if i >= 0}))
+        if not is_defined_everywhere(expr):
+            result.append(
+                PossiblyUndefinedExpression(address, expr, k, {name: i for name, i in indices.items() if i >= 0})
+            )
     return result

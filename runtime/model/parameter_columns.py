@@ -17,7 +17,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_names
 from gudgeon.model.arrays import FLAG
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.file_expressions import describe_undefined_number, find_partial_expressions
+from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
 from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
 from gudgeon.model.sizes import find_length_indices
 
@@ -56,7 +56,7 @@ class ParameterColumns:
         self.p_motion = self.p.copy() if gains else self.p
         self._given_pointer, self._pointers = compiled.pointer(self._given, is_written=True), self._make_pointers()
         *self._limits, self._relations = collect_conditions(source)
-        self._has_partial_expressions = bool(find_partial_expressions(source))
+        self._has_partial_expressions = bool(list_possibly_undefined_expressions(source))
         self.length_indices = find_length_indices(source)
 
     def _make_pointers(self) -> list[tuple[tuple[Any, Any, Any], ...]]:
@@ -109,7 +109,7 @@ class ParameterColumns:
                 return False
         return not (
             self._has_partial_expressions
-            and describe_undefined_number(self.source, p, self._is_given[0, : len(self.source.slots)])
+            and describe_undefined_part(self.source, p, self._is_given[0, : len(self.source.slots)])
         )
 
 

@@ -128,14 +128,16 @@ def read_given_parameters_of_runs(source: KernelSource, rows: Sequence[Mapping[s
 
     Runs that give the same parameters as floats are read at once.
     """
-    uniform = read_uniform_rows(source, rows)
+    values_and_mask = read_runs_with_equal_names(source, rows)
     result: tuple[Array, Mask] = (
-        read_each_run(rows, lambda _, row: read_given_parameters(source, row)) if uniform is None else uniform
+        read_each_run(rows, lambda _, row: read_given_parameters(source, row))
+        if values_and_mask is None
+        else values_and_mask
     )
     return result
 
 
-def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
+def read_runs_with_equal_names(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
     """Return values and mask (n_runs, n_parameters) if all runs give the same parameters as floats; else None.
 
     This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a

@@ -22,7 +22,7 @@ from gudgeon.model.arrays import FLAG
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import explain_law_choice, explain_named_expression, find_word_index
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.file_expressions import describe_undefined_number, find_partial_expressions
+from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
 from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia, has_unresolved_clearance
 
 # a number as files have it, in ASCII digits without '_'; float() accepts more
@@ -276,7 +276,7 @@ def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: N
     pair[:], masks[:] = given_values, is_given
     for k in _find_gain_indices(source):
         pair[1, k], masks[1, k] = 0.0, 1
-    compiled.prepare_rows(pair, masks, values)
+    compiled.prepare_runs_in_place(pair, masks, values)
     if not has_valid_values(source, values[0], is_given):
         check_parameter_values(source, values[0], is_given)
     return values
@@ -311,8 +311,8 @@ def has_valid_values(source: KernelSource, p: Array, is_given: NDArray[np.generi
             return False
     return not (
         has_unresolved_clearance(source, p)
-        or find_partial_expressions(source)
-        and describe_undefined_number(source, p, is_given)
+        or list_possibly_undefined_expressions(source)
+        and describe_undefined_part(source, p, is_given)
     )
 
 
@@ -373,7 +373,7 @@ def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.
                 describe_zero_inertia(value_by_address, source.derived[k])
                 or _format_overflow_message(source, value_by_address, k, derived_value)
             )
-    if message := describe_undefined_number(source, p, is_given) or describe_unresolved_clearance(source, p):
+    if message := describe_undefined_part(source, p, is_given) or describe_unresolved_clearance(source, p):
         raise BadValueError(message)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import compute_min_clearances, find_contour, find_contour_parameters
+from gudgeon.model.contours import compute_min_clearances, find_contour_parameters, get_contour_depths
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 MIN_RELATIVE_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
@@ -36,7 +36,7 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     return np.where(size > 0.0, size, 1.0)
 
 
-def compute_size_of_values(index_pairs: Sequence[tuple[int, int]], values: Sequence[float]) -> float:
+def compute_size_of_run(index_pairs: Sequence[tuple[int, int]], values: Sequence[float]) -> float:
     """Return the size (m) of the mechanism for one run, bit for bit as `compute_mechanism_sizes`, but with floats.
 
     index_pairs: those of `find_size_indices`; values: parameter values (n_parameters + n_derived,).
@@ -68,7 +68,7 @@ def select_lengths(source: KernelSource, p: Array) -> Array:
     return p.take(find_length_indices(source))
 
 
-def spread_lengths(source: KernelSource, lengths: Array) -> Array:
+def scatter_lengths(source: KernelSource, lengths: Array) -> Array:
     """Return parameter values (n_p,) from the result of `select_lengths`; all others are NaN."""
     p = np.full(len(source.slots) + len(source.derived), np.nan)
     p[find_length_indices(source)] = lengths
@@ -98,8 +98,8 @@ def is_clearance_unresolved(source: KernelSource, p: Array, size: float) -> bool
 @cache_by_values
 def _measure_lengths(source: KernelSource, lengths: Array) -> tuple[float, bool]:
     """Return the size (m), and whether a clearance is below MIN_RELATIVE_CLEARANCE of it; cached for equal lengths."""
-    p = spread_lengths(source, lengths)
-    size = compute_size_of_values(find_size_indices(source), p.tolist())
+    p = scatter_lengths(source, lengths)
+    size = compute_size_of_run(find_size_indices(source), p.tolist())
     return size, is_clearance_unresolved(source, p, size)
 
 
@@ -159,7 +159,7 @@ def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
     """
     for joint, is_unresolved in zip(source.clearances, find_unresolved_clearances(source, p).tolist(), strict=True):
         if is_unresolved:
-            size, depths = compute_size(source, p), find_contour(source, p, joint.name)
+            size, depths = compute_size(source, p), get_contour_depths(source, p, joint.name)
             c = float(p[joint.clearance]) + (0.0 if depths is None else float(depths.min()))
             phrase = " at its contour" * (depths is not None)
             return (

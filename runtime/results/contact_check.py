@@ -19,7 +19,7 @@ from gudgeon.contract.boundary import MIN_TOUCHING_PENETRATION
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import compute_corner_approach, find_contour, interpolate_depth
+from gudgeon.model.contours import compute_corner_approach, get_contour_depths, interpolate_depth
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -192,7 +192,7 @@ def _compute_bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
     first, second = _find_end_point_names(run, joint)
     ex, ey = (_compute_point_positions(run, second) - _compute_point_positions(run, first)).T
     delta = np.hypot(ex, ey) - float(run.p[joint.clearance])
-    if (depths := find_contour(run.source, run.p, joint.name)) is not None:
+    if (depths := get_contour_depths(run.source, run.p, joint.name)) is not None:
         delta -= interpolate_depth(depths, np.arctan2(ey, ex) - _get_body_angle(run, joint.first))
     return delta
 

@@ -443,8 +443,8 @@ def make_evaluated_samples(
 ) -> EvaluatedSamples:
     """Return a result of samples as C stores them; of an Evaluation it can evaluate only the fields `field_names`.
 
-    `work` (N, 3); `discrete_states` (N, n_memory): approach speeds, friction modes, internal states; `state` (N,
-    n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
+    `work` (N, 3); `discrete_states` (N, n_discrete_states): approach speeds, friction modes, internal states; `state`
+    (N, n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
     without masses.
     """
     n_parameters = len(source.slots)
@@ -474,7 +474,7 @@ def make_empty_result(source: KernelSource) -> EvaluatedSamples:
     """
     n, n_clearances = len(source.coordinates), len(source.clearances)
     p = np.full(len(source.slots) + len(source.derived), np.nan)
-    empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
+    empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_discrete_states))
     return make_evaluated_samples(
         source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), FIELD_NAMES
     )

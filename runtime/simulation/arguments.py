@@ -238,7 +238,9 @@ def find_required_variant(source: KernelSource, method: str, rtol: float | str |
     if method in STAGED:
         return "" if source.stages or source.reason_without_jacobian else STAGES
     if method == "auto" and source.taylor_below and not source.taylor and not has_step:
-        is_missing = adaptive.lacks_series(source, adaptive.parse_tolerance(rtol, ADAPTIVE, False)) and has_compiler()
+        is_missing = (
+            adaptive.lacks_taylor_series(source, adaptive.parse_tolerance(rtol, ADAPTIVE, False)) and has_compiler()
+        )
         return TAYLOR if is_missing else ""
     return method if method in SMOOTH and not source.taylor else ""
 

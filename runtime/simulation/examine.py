@@ -21,7 +21,7 @@ from numpy.polynomial.legendre import leggauss
 from gudgeon.contract.methods import ADAPTIVE, STEP_CONTROLLED_METHODS
 from gudgeon.errors import GudgeonError
 from gudgeon.language.argument_checks import check_integer
-from gudgeon.model.contours import find_contour, interpolate_depth
+from gudgeon.model.contours import get_contour_depths, interpolate_depth
 from gudgeon.results.contact_check import ContactCheck, check_contact_samples
 from gudgeon.results.diagnostics import Difference, Examination, IdealForce, JointContactStatistics
 from gudgeon.results.samples import prepend_start
@@ -213,7 +213,9 @@ def _examine_joint(
     products = ((dry_repetition[f"{name}.F{axis}"] * repetition[f"{name}.e{axis}"])[indices] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
         radial_force = sum(products) / e
-        if (depths := find_contour(run.source, run.p, name)) is not None:  # component along the penetration's gradient
+        if (
+            depths := get_contour_depths(run.source, run.p, name)
+        ) is not None:  # component along the penetration's gradient
             bearing = run.source.bodies[joint.first].name if joint.first >= 0 else None
             theta = repetition[f"{bearing}.theta"][indices] if bearing else 0.0
             angle = np.arctan2(repetition[f"{name}.ey"][indices], repetition[f"{name}.ex"][indices]) - theta

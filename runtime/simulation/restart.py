@@ -49,7 +49,7 @@ def copy_checked_state(source: KernelSource, start: Any) -> State:
     state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, always_copy=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    discrete_states = as_c_array(start.memory, "start.memory", (source.n_memory,), always_copy=True)
+    discrete_states = as_c_array(start.memory, "start.memory", (source.n_discrete_states,), always_copy=True)
     _check_discrete_states(source, state, discrete_states)
     return replace(
         start,

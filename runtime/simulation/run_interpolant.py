@@ -18,7 +18,7 @@ from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
-from gudgeon.model.evaluation import FIELD_NAMES, find_rounding_distance
+from gudgeon.model.evaluation import FIELD_NAMES, compute_rounding_distance
 from gudgeon.results.batch import depends_on_works, find_evaluation_parts
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
@@ -196,7 +196,7 @@ class RunInterpolant:
         t = steps.t
         if self.compiled.has_mod_in_drives and not self.is_kinematic:  # step ends have the rates before a jump
             since = t - np.maximum.accumulate(np.where(steps.is_after_jump, t, -np.inf))
-            t = np.where(since > 4.0 * find_rounding_distance(t), t - 2.0 * find_rounding_distance(t), t)
+            t = np.where(since > 4.0 * compute_rounding_distance(t), t - 2.0 * compute_rounding_distance(t), t)
         while True:
             try:
                 states = (
@@ -207,7 +207,7 @@ class RunInterpolant:
                 evaluation = self.compiled.evaluate(*states, self.p, field_names=self.parts)
                 break
             except SolverError as error:
-                remaining = is_solvable & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))
+                remaining = is_solvable & (np.abs(t - error.time) > 4.0 * compute_rounding_distance(t))
                 is_solvable = remaining if (remaining != is_solvable).any() else np.zeros_like(is_solvable)
         if is_solvable.all():
             return evaluation, is_solvable

@@ -87,7 +87,7 @@ class _ReusableSamples:
         compiled, x, n = run.compiled, run.arrays, run.compiled.n
         y, pointer = x["y"][k], compiled.pointer
         joints = len(compiled.source.clearances)
-        memory, state = x["discrete_states"][k][:, : compiled.n_memory], x["state"][k][:, :joints]
+        memory, state = x["discrete_states"][k][:, : compiled.n_discrete_states], x["state"][k][:, :joints]
         self.result = make_evaluated_samples(
             compiled.source,
             compiled,

@@ -30,7 +30,7 @@ from gudgeon.model.parameter_sets import (
     prepare_values_of_runs,
     read_each_run,
     read_parameter_rows,
-    read_uniform_rows,
+    read_runs_with_equal_names,
 )
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.results.batch import (
@@ -222,7 +222,7 @@ class _Starts:
             run_arguments.count_runs(len(rows))
         self.t = self.states[0].t if self.states else 0.0
         uniform_values = (
-            None if self.states or contours else read_uniform_rows(simulation.source, rows)
+            None if self.states or contours else read_runs_with_equal_names(simulation.source, rows)
         )  # not None: no run has notes on choices
         self.remarks: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
         self._merged_inputs: tuple[object, ...] = (self, self)  # of the last run: its parameters, those of its state

@@ -190,7 +190,7 @@ class ComparedScene:
         """Return the Problem of the assembled scene at t = 0, by method "auto" and without discrete states."""
         p, given, is_given = self.parameter_arrays
         assembled, method = assemble_start(self.compiled, p), select_method(self.compiled.source, "auto", False)
-        discrete_states = np.full(self.compiled.n_memory, np.nan)
+        discrete_states = np.full(self.compiled.n_discrete_states, np.nan)
         return Problem(
             self.compiled,
             p,

@@ -120,7 +120,7 @@ class Stepper:
             self._q,
             x["start"][n:],
             x["codes"][: len(source.clearances)],
-            x["initial_discrete_states"][: source.n_memory],
+            x["initial_discrete_states"][: source.n_discrete_states],
         )
         return make_state(source, *given, self._t, *motion)
 

@@ -22,7 +22,7 @@ import numpy as np
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.integrators.adaptive import find_integrated_angles
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import compute_corner_penetration, find_contour, interpolate_depth
+from gudgeon.model.contours import compute_corner_penetration, get_contour_depths, interpolate_depth
 from gudgeon.model.parameters import prepare_without_baumgarte
 from gudgeon.results.samples import prepend_start
 from gudgeon.simulation.neighbours import INITIAL_DISTANCE, DifferenceNorm, flatten_state
@@ -66,7 +66,7 @@ class Flow:
         rows = [row.owner for row in source.start_rows]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
         self.radial_clearances = [float(self.p[joint.clearance]) for joint in source.clearances]
-        self.depths = [find_contour(source, self.p, joint.name) for joint in source.clearances]
+        self.depths = [get_contour_depths(source, self.p, joint.name) for joint in source.clearances]
         first = (joint.first for joint in source.clearances)
         # index into q of the x coordinate of each bearing; −1: ground
         self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]
@@ -78,7 +78,7 @@ class Flow:
         self._full = np.zeros(compiled.n), np.zeros(compiled.n)
         self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
         self._reduce = [*self.make_pointers(*self._full), *p, *self.make_pointers(*self._reduced, is_written=True)]
-        self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_memory, 1))
+        self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_discrete_states, 1))
         self._a = np.zeros(max(m, 1))
         others = np.zeros(len(compiled.source.closures) + 1), np.zeros(N_WORK)
         self._rhs = [*self.make_pointers(*self._state), *p, *self.make_pointers(self._a, *others, is_written=True)]

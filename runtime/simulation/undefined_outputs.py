@@ -9,7 +9,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.tree import Expr, evaluate, from_json, iterate_calls, iterate_names
-from gudgeon.language.undefined_parts import is_total_expression
+from gudgeon.language.undefined_parts import is_defined_everywhere
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import Array
@@ -39,7 +39,7 @@ def list_checked_expressions(source: KernelSource) -> tuple[_Expression, ...]:
     trees = {f"output {name}": from_json(tree) for name, tree in source.outputs.items() if name in catalogue}
     for info, tree in read_expression_trees(source, ("drives", "forces")):
         operands = [operand for call in iterate_calls(tree, "where") for operand in call.arguments[:2]]
-        if not all(map(is_total_expression, operands)):
+        if not all(map(is_defined_everywhere, operands)):
             trees[info.address] = tree
     index = source.slot_index | {
         address.removeprefix("parameters."): k

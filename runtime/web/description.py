@@ -28,7 +28,7 @@ from gudgeon.language.undefined_parts import DIVIDING
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import MAX_STEP_FRACTION, T_END, estimate_default_step
-from gudgeon.model.file_expressions import find_partial_expressions
+from gudgeon.model.file_expressions import list_possibly_undefined_expressions
 from gudgeon.model.parameters import GAINS, list_conditions, prepare_values
 from gudgeon.model.sizes import find_size_indices
 from gudgeon.results.series import get_catalogue
@@ -63,7 +63,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
                 "slot": item.parameter_index,
                 "slots": dict(item.indices_by_name),
             }
-            for item in find_partial_expressions(source)
+            for item in list_possibly_undefined_expressions(source)
         ],
         "divides": sorted(DIVIDING),
         "gains": [parameter_indices[name] for name in GAINS if name in parameter_indices],
@@ -83,7 +83,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "rtol": RTOL,
         "felt_by_films": MAX_FILM_SPEED_ERROR,
         "reach": MAX_CORRECTION,
-        "memory": source.n_memory,
+        "memory": source.n_discrete_states,
         "events": [[event.name, event.action] for event in source.events],
         "widths": _count_array_columns(source),
         "unknown": _list_indeterminate_series(source),

@@ -185,7 +185,7 @@ def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
         if compiled.source.closures:
             with np.errstate(all="ignore"):
                 here = _closed(reduced, t, *here)
-        memory = np.where(rng.random(compiled.n_memory) < 0.5, 0.1, np.nan)
+        memory = np.where(rng.random(compiled.n_discrete_states) < 0.5, 0.1, np.nan)
         memory[len(compiled.source.clearances) :] = 1.0
         found = _both(reduced, t, *here, memory)
         moved = [_both(reduced, t + e, here[0] * (1 + e) + e, here[1] * (1 + e) + e, memory) for e in (1e-10, -1e-10)]

@@ -80,7 +80,7 @@ def test_every_shipped_scene(of: tuple[str, str], gains: float) -> None:
     subject = shipped_subject(name, scene, gains)
     for seed in range(5):
         y, memory = near_start(name, scene, subject, seed)
-        subject.compare(0.1 + seed, y, memory[: max(subject.library.n_memory, 1)])
+        subject.compare(0.1 + seed, y, memory[: max(subject.library.n_discrete_states, 1)])
 
 
 @pytest.mark.parametrize("seed", slow_but([3, 4, 5], range(12)))  # every kind of joint, drive and element
@@ -119,7 +119,7 @@ def test_the_solve_against_a_dense_one(of: tuple[str, str]) -> None:
     subject = shipped_subject(name, scene)
     rng = np.random.default_rng(7)
     y, memory = near_start(name, scene, subject, 3)
-    check_solve(subject, 0.2, y, memory[: max(subject.library.n_memory, 1)], rng)
+    check_solve(subject, 0.2, y, memory[: max(subject.library.n_discrete_states, 1)], rng)
 
 
 def test_the_solve_where_friction_sticks_and_slips() -> None:

@@ -38,7 +38,7 @@ class Tree:
         run = simulation.simulate(t, output=1, rtol=1e-9)
         zeros = np.zeros(len(simulation.source.slots))
         self.p = prepare_without_baumgarte(self.compiled, zeros, zeros.astype(bool))
-        self.memory = self.compiled.as_discrete_states(run.memory[-1] if self.compiled.n_memory else None)
+        self.memory = self.compiled.as_discrete_states(run.memory[-1] if self.compiled.n_discrete_states else None)
         self.n = len(simulation.source.tree)
         chained = len(simulation.source.chain)
         q, v = np.zeros(self.n + chained), np.zeros(self.n + chained)

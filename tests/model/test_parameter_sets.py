@@ -17,7 +17,7 @@ from gudgeon.model.parameter_sets import (
     read_each_run,
     read_given_parameters_of_runs,
     read_parameter_rows,
-    read_uniform_rows,
+    read_runs_with_equal_names,
 )
 from gudgeon.model.parameters import GAINS, prepare_without_baumgarte, read_given_parameters
 from tests.programs import needs_compiler
@@ -46,7 +46,7 @@ def test_plain_numbers_are_read_at_once() -> None:
 
 @pytest.mark.parametrize("name", ALONE)
 def test_others_are_read_one_by_one(name: str) -> None:
-    assert read_uniform_rows(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
+    assert read_runs_with_equal_names(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
 
 
 CLEARANCES = [3e-4, 4e-4, 5e-4]
@@ -93,7 +93,7 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
         == one_by_one
         == message(lambda: read_given_parameters_of_runs(source, plain))
     )
-    assert (read_uniform_rows(source, rows) is not None) == at_once
+    assert (read_runs_with_equal_names(source, rows) is not None) == at_once
 
 
 def test_a_run_of_columns_that_there_is_not() -> None:

@@ -121,7 +121,7 @@ def test_shipped_mechanisms(name: str, scene: str) -> None:
         t = 0.01 * seed
         near = s + rng.normal(0.0, 1e-3 * seed, len(s)) * size
         here = reduced.close(t, near, rate + rng.normal(0.0, 0.1 * seed, len(s)))
-        memory = np.full(library.n_memory, np.nan) if seed % 2 else np.full(library.n_memory, 0.02)
+        memory = np.full(library.n_discrete_states, np.nan) if seed % 2 else np.full(library.n_discrete_states, 0.02)
         memory[len(model.clearances) :] = seed % 3 - 1.0  # frictions: stick, or slip either way
         check_state(reduced, numbers, t, *here, memory if memory.size else NAN)
 

@@ -120,7 +120,7 @@ def test_two_runs_are_in_c_at_once(options: dict[str, Any], monkeypatch: pytest.
 
     press = gudgeon.load("nine_bar_press", "dry")
     alone = [press.simulate(0.02, output=20, parameters={"c": c}, **options) for c in (4e-4, 5e-4)]
-    press.compiled.free_runs.clear()  # reused runs poll at the interval at which they were created
+    press.compiled.unused_runs.clear()  # reused runs poll at the interval at which they were created
     monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
     monkeypatch.setattr(cancellation.CancellationPoll, "poll_from_c", answer)
 

@@ -84,7 +84,7 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
         assert np.allclose(filled, want, rtol=eps, atol=eps * scale)
         assert np.array_equal(filled[np.abs(want) == 1.0], want[np.abs(want) == 1.0])
         if gaps:
-            free = np.full((1, compiled.n_memory), np.nan)
+            free = np.full((1, compiled.n_discrete_states), np.nan)
             columns = compiled.evaluate([t], q[None], v[None], free, p).clearance[0]
             of = {name: columns[:, k] for k, name in enumerate(CLEARANCE_COLUMNS)}
             c = [p[joint.clearance] for joint in source.clearances]

@@ -33,7 +33,7 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, iterate_quantities
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.language.tree import Expr, iterate_names, to_json
-from gudgeon.language.undefined_parts import is_total_expression
+from gudgeon.language.undefined_parts import is_defined_everywhere
 from gudgeon.language.units import Dimension
 
 EMPTY_REDUCTION_LOG = ReductionLog()
@@ -139,7 +139,7 @@ def _describe_parameters(model: Model) -> Iterator[RuntimeParameter]:
         exponents = _get_unit_exponents(entry.dimension)
         expression = (
             ""
-            if entry.expression is None or is_total_expression(entry.expression)
+            if entry.expression is None or is_defined_everywhere(entry.expression)
             else json.dumps(to_json(entry.expression))
         )
         yield RuntimeParameter(
