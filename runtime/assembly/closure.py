@@ -48,12 +48,12 @@ class AssemblyProblem:
         self.set = np.array([*fixed, *held_values.values()])
         held = [*source.start_set, *held_values]
         self.set_index = [self.coordinate_index[name] for name in held]
-        self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in held]
-        self.eccentricity_rows = [self.names.index(name) for name in source.start_apart]
-        self.owners = [row.owner for row in source.start_rows] + ["start"] * len(held)
+        self.names = [row.name for row in source.start_equations] + [f"set {name}" for name in held]
+        self.eccentricity_rows = [self.names.index(name) for name in source.eccentricity_equations]
+        self.owners = [row.owner for row in source.start_equations] + ["start"] * len(held)
         self.is_angle = find_angles(source)
         self.size = self.max_distance = compute_mechanism_size(linkage, p)
-        self.units = [row.unit for row in source.start_rows]
+        self.units = [row.unit for row in source.start_equations]
         self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
         self.weight = np.where(self.is_angle, ANGLE_WEIGHT, POSITION_WEIGHT / self.size)
@@ -267,8 +267,8 @@ class AssemblyProblem:
 
     def _compute_max_distance(self, guess: Array) -> float:
         """Return the largest length (m) in the residuals and positions of the guess; at least the mechanism's size."""
-        requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_rows)]
-        lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
+        requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_equations)]
+        lengths = [row.unit == "m" for row in self.linkage.source.start_equations]
         return float(
             max(self.size, requested[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0))
         )

@@ -75,9 +75,9 @@ def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None
             f"  corners have contact with the wall on their own side only: give {guide} a larger half_length, or a"
             " smaller gap"
         )
-    if source.start_apart:
+    if source.eccentricity_equations:
         values = linkage.start_values(p)[1][len(source.start_set) :]
-        named = dict(zip(source.start_apart, values, strict=True))
+        named = dict(zip(source.eccentricity_equations, values, strict=True))
         tilt = math.degrees(named.get(f"{joint.joint}.angle", 0.0))
         if abs(tilt) >= 90.0:
             raise AssemblyError(
@@ -128,12 +128,14 @@ def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[
     file's start sets no such position. If it sets any, bearings that it leaves out are yielded with |e| = 0.
     """
     source = linkage.source
-    if not source.start_apart:
+    if not source.eccentricity_equations:
         return
     values = linkage.start_values(p)[1][len(source.start_set) :]
     for joint in source.clearances:
         joint_values = [
-            x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint
+            x
+            for row, x in zip(source.eccentricity_equations, values, strict=True)
+            if row.rpartition(".")[0] == joint.joint
         ]
         if joint.is_corner:
             if joint_values:
@@ -211,8 +213,11 @@ def _find_contour_depth(
 def find_eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """Return the indices of a joint's equations in source.start_rows, and its eccentricity (2,), m, in ground axes."""
-    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
+    """Return the indices of a joint's equations in source.start_equations, and its eccentricity.
+
+    The eccentricity (2,) is in m, in ground axes.
+    """
+    rows = [k for k, row in enumerate(compiled.source.start_equations) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 

@@ -91,7 +91,7 @@ def compute_start_velocities(problem: AssemblyProblem, q: Array) -> Array:
     target = np.concatenate([nu, problem.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
         source = problem.linkage.source
-        rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]
+        rows = [row.name for row, x in zip(source.start_equations, target, strict=False) if not np.isfinite(x)]
         raise AssemblyError(
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
             f" t = {problem.t:g} s\n  the slope of a root or a power is infinite where it begins: use smooth_step, or"

@@ -257,7 +257,7 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
         parameter.address: abs(float(p[k]))
-        for k, parameter in enumerate(source.slots)
+        for k, parameter in enumerate(source.parameters)
         if parameter.dimension == (1, 0, 0) and not parameter.address.startswith(("parameters.", "start."))
     }
     address = max(lengths, key=lengths.__getitem__, default="")

@@ -130,11 +130,11 @@ def _build_scene_counts(source: KernelSource) -> dict[str, int]:
     """
     counts = {
         "unknowns": len(source.coordinates),
-        "rows": len(source.rows),
+        "rows": len(source.equations),
         "degrees of freedom": source.degrees_of_freedom,
-        "non-zeros of Φ_q": source.story.jacobian,
+        "non-zeros of Φ_q": source.reduction_log.jacobian,
         "joints with play": len({joint.joint for joint in source.clearances}),
-        "numbers that can be set": len(source.slots),
+        "numbers that can be set": len(source.parameters),
         **({"of them depths of contours": len(find_contour_parameters(source))} if source.contours else {}),
     }
     return counts | {_format_kernel_label(name): count for name, count in source.operations.items()}
@@ -147,7 +147,7 @@ def find_eliminated_drive_equations(source: KernelSource) -> tuple[str, ...]:
     """
     if source.formulation == "full":
         return ()
-    rows = (source.rows[drive.row].name for drive in source.drives if drive.row >= 0)
+    rows = (source.equations[drive.row].name for drive in source.drives if drive.row >= 0)
     return tuple(row for row in rows if row not in source.closures)
 
 
@@ -240,7 +240,7 @@ def _build_scene_document(source: KernelSource) -> dict[str, Any]:
     document = {
         "events": _format_events(source),
         "notes": list(source.notes),
-        "story": build_log_document(source.story),
+        "story": build_log_document(source.reduction_log),
     }
     return {**_build_scene_counts(source), **_describe_reduction(source), **document}
 

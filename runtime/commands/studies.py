@@ -19,7 +19,7 @@ from gudgeon.commands.common import (
 from gudgeon.commands.progress import Report, show_progress_bars, show_status_line
 from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.errors import BadValueError
-from gudgeon.model.parameters import list_addresses, parse_typed_number, prepare_values, read_parameter_value
+from gudgeon.model.parameters import compute_parameter_values, list_addresses, parse_typed_number, read_parameter_value
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.ctrl_c import INTERRUPTED
@@ -141,5 +141,5 @@ def load_scenes(request: MeasurementRequest) -> list[Simulation]:
         simulations = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in simulations])
     for simulation in simulations:
-        prepare_values(simulation.compiled, request.select_parameters(simulation))
+        compute_parameter_values(simulation.compiled, request.select_parameters(simulation))
     return simulations

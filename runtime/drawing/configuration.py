@@ -41,7 +41,7 @@ class Configuration:
 
     def __post_init__(self) -> None:
         """Raise GudgeonError for a scene whose file lacks the ends of its parts."""
-        if self.source.start_rows and not self.source.parts:
+        if self.source.start_equations and not self.source.parts:
             raise GudgeonError(
                 "this result lacks the ends of its joints, drives and forces: an earlier version of gudgeon wrote it\n"
                 "  run the scene again"
@@ -74,7 +74,7 @@ class Configuration:
     @cached_property
     def _parameter_indices(self) -> Mapping[str, int]:
         """Index of each parameter by address."""
-        return {parameter.address: k for k, parameter in enumerate(self.source.slots)}
+        return {parameter.address: k for k, parameter in enumerate(self.source.parameters)}
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
@@ -155,7 +155,9 @@ class Configuration:
 
     def is_specified(self, address: str) -> bool:
         """Return whether the file specifies a value, a number or an expression, at an address."""
-        return address in self._parameter_indices or any(entry.address == address for entry in self.source.written)
+        return address in self._parameter_indices or any(
+            entry.address == address for entry in self.source.file_expressions
+        )
 
     def compute_direction(self, part: PartInfo, key: str, body: str) -> Array:
         """Return a vector of a joint or force element as a unit vector in ground axes, (2,).

@@ -118,7 +118,7 @@ def _compute_bar_half_width(configuration: Configuration, positions: Array) -> f
     if not drawing_size > 0.0:  # all points coincide
         lengths = (
             abs(configuration.get_parameter(parameter.address))
-            for parameter in configuration.source.slots
+            for parameter in configuration.source.parameters
             if parameter.unit == "m"
         )
         return UNIT_FRACTION * (max(lengths, default=0.0) or 1.0)

@@ -57,13 +57,13 @@ class Pen(JointGeometry):
         angle = self.configuration.get_angle(self.bodies[k])
         return np.array([np.cos(angle), np.sin(angle)])
 
-    def add_line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
+    def add_line(self, role: str, points: Sequence[Array], closed: bool = False, colour_index: int = 0) -> None:
         """Add a line through points (m)."""
-        self.shapes.append(Line(self.name, role, np.array(points), closed, tint))
+        self.shapes.append(Line(self.name, role, np.array(points), closed, colour_index))
 
-    def add_disc(self, role: str, centre: Array, radius: float, tint: int = 0) -> None:
+    def add_disc(self, role: str, centre: Array, radius: float, colour_index: int = 0) -> None:
         """Add a circle with a radius in m."""
-        self.shapes.append(Disc(self.name, role, centre, radius, tint))
+        self.shapes.append(Disc(self.name, role, centre, radius, colour_index))
 
     def add_box(self, role: str, centre: Array, axis: Array, length: float, width: float) -> None:
         """Add a rectangle with half its length, along the unit vector `axis`, and half its width in units."""
@@ -160,15 +160,15 @@ class Pen(JointGeometry):
         rim.
         """
         body, names = self.bodies[k], list(self.configuration.bodies)
-        tint = names.index(body) if body in names else 0
+        colour_index = names.index(body) if body in names else 0
         if is_ring:
-            self.add_disc("rim", centre, radius + 1.2 * self.unit, tint)
-        self.add_disc("ring" if is_ring else "wheel", centre, radius, tint)
+            self.add_disc("rim", centre, radius + 1.2 * self.unit, colour_index)
+        self.add_disc("ring" if is_ring else "wheel", centre, radius, colour_index)
         direction, spoke_radii = (
             self.compute_body_axis(k),
             (radius, radius + 1.2 * self.unit) if is_ring else (0.0, radius),
         )
-        self.add_line("spoke", [centre + r * direction for r in spoke_radii], tint=tint)
+        self.add_line("spoke", [centre + r * direction for r in spoke_radii], colour_index=colour_index)
 
 
 def draw_ground_wall(

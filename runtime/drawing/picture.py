@@ -59,7 +59,7 @@ def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
 
     With `is_grey`, edge and face are grey. An open line is not filled.
     """
-    edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
+    edge, face = resolve_colour(role.edge, shape.colour_index), resolve_colour(role.face, shape.colour_index)
     style: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
         style |= {"ls": (0.0, role.dashes)}

@@ -19,7 +19,7 @@ class Line:
     role: str
     points: Array
     closed: bool = False
-    tint: int = 0  # index of the body's colour
+    colour_index: int = 0  # index of the body's colour
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +30,7 @@ class Disc:
     role: str
     centre: Array
     radius: float
-    tint: int = 0
+    colour_index: int = 0
 
 
 @dataclass(frozen=True, eq=False)

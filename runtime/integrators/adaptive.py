@@ -126,7 +126,7 @@ def lacks_taylor_series(source: KernelSource, rtol: float) -> bool:
     return not source.taylor and rtol < source.taylor_below
 
 
-def uses_series(source: KernelSource, method: str, rtol: float) -> bool:
+def uses_taylor_series(source: KernelSource, method: str, rtol: float) -> bool:
     """Return whether a run by a method, as select_method returns it, makes its steps by Taylor series."""
     return (select_first_method(source, rtol) if method == ADAPTIVE else method) == TAYLOR
 
@@ -216,22 +216,24 @@ def compute_tolerances_of_runs(compiled: CompiledModel, p: Array, rtol: float) -
     """
     if len(p) > 1:
         return _compute_tolerances_and_sizes(compiled, p, rtol)
-    return _compute_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
+    return _compute_cached_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
 
 
 @cache_by_values
-def _compute_tolerances_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
+def _compute_cached_tolerances_of_run(
+    compiled: CompiledModel, lengths: Array, rtol: float
+) -> tuple[Array, Array, Array]:
     """Return what `compute_tolerances_of_runs` returns for one run: tolerances (1, 2 n_x), (L, L/S) (1, 2), S (1,).
 
     `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
     """
     p = scatter_lengths(compiled.source, lengths)
     size = compute_size(compiled.source, p)
-    scale, least = compute_tolerances_of_values(compiled.source, p, size, rtol)
+    scale, least = compute_tolerances_of_single_run(compiled.source, p, size, rtol)
     return scale[None], np.array([least]), np.array([size])
 
 
-def compute_tolerances_of_values(
+def compute_tolerances_of_single_run(
     source: KernelSource, p: Array, size: float, rtol: float
 ) -> tuple[Array, tuple[float, float]]:
     """Return error tolerances (2 n_x,), L and L/S of one run, from its parameter values p (n_p,) and S, `size` (m).

@@ -88,7 +88,7 @@ class Runs(StoredRuns):
         has_lanes = side_by_side and is_in_c and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
             compiled.lib.wait_for_optimized_library()  # lanes call its functions
-        has_series = adaptive.uses_series(compiled.source, method, rtol)
+        has_series = adaptive.uses_taylor_series(compiled.source, method, rtol)
         self.lane_provider = LaneProvider(compiled, has_series) if has_lanes else None
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
@@ -383,7 +383,7 @@ class Runs(StoredRuns):
                 self.fetch_contacts_and_events(int(current[0]), run, status == RUN_ENDED)
                 if step_log:
                     step_log.observer = self.observers[int(current[0])]
-                    step_log.flush_rows(run)
+                    step_log.flush_recorded_states(run)
             current[0] += status == RUN_ENDED
 
     def _build_error(self, i: int) -> GudgeonError:

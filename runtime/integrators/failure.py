@@ -193,8 +193,8 @@ def _build_singular_error(
 
     `fast_drive_hint`: text on drives with high rates, or "", for the message of NonFiniteError.
     """
-    row = compiled.source.motion_pivots[status - 1]
-    if row in compiled.source.chain_rows:
+    row = compiled.source.integrated_pivots[status - 1]
+    if row in compiled.source.driven_loop_equations:
         return SingularError(
             f"the linkage reaches a dead centre at t = {t:.9g} s: at the position of its drives, constraint equation"
             f" {row} has no solution{format_drive_states(compiled, p, t)}\n"
@@ -204,7 +204,7 @@ def _build_singular_error(
             row,
         )
     try:
-        compiled.check_pivot(status, t, compiled.source.motion_pivots, p)
+        compiled.check_pivot(status, t, compiled.source.integrated_pivots, p)
     except SingularError as error:
         finite = bool(np.isfinite(last_state).all())
         if finite and np.abs(last_state).max() < 1e12:
@@ -249,7 +249,7 @@ def format_drive_states(compiled: CompiledModel, p: Array, t: float, min_rate: f
         values = {name: evaluate_at_times(source, p, tree, np.array([t]))[0] for name, tree in trees.items()}
     parts = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
-        for row, rate in zip(source.start_rows, rates, strict=True)
+        for row, rate in zip(source.start_equations, rates, strict=True)
         if row.kind == "drive" and row.owner in values and not abs(rate) < min_rate  # constants have no rate
     ]
     return "".join(f"; {text}" for text in parts)
@@ -455,7 +455,7 @@ def _get_location_name(source: KernelSource, check: Check, index: int) -> str:
     if check.place == "joint":
         return source.clearances[index].name
     if check.place == "row":
-        return source.start_rows[index].name
+        return source.start_equations[index].name
     if check.place == "event":
         return source.events[index].name
     if check.place == "friction":

@@ -233,7 +233,7 @@ def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None
     over = bool(runs.arrays["phase"][i] == OVER)
     if step_log and (over or runs.compiled.lib.gudgeon_run_has_full_buffers(run)):
         step_log.observer = runs.observers[i]
-        step_log.flush_rows(run)
+        step_log.flush_recorded_states(run)
     runs.fetch_contacts_and_events(i, run, over)
 
 

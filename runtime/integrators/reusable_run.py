@@ -83,7 +83,7 @@ class ReusableRun(Runs):
             self._size, self._size_key = compute_size_of_run(find_size_indices(source), p.tolist()), size_key
         if is_clearance_unresolved(source, p, self._size):
             return False
-        x["scale"][k], x["min_size"][k] = adaptive.compute_tolerances_of_values(source, p, self._size, self.rtol)
+        x["scale"][k], x["min_size"][k] = adaptive.compute_tolerances_of_single_run(source, p, self._size, self.rtol)
         x["size"][k] = self._size
         self._tolerance_keys[k] = key
         return True

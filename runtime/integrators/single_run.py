@@ -121,7 +121,7 @@ class SingleRun(Runs):
         compiled, x, run = self.compiled, self.arrays, self._integrator
         step_log = StepLog(compiled) if self.observers else None
         if step_log:
-            step_log.register_rows(run)
+            step_log.register_record_buffer(run)
         compiled.lib.switch_library_if_ready()
         try:
             self._run_time_loop(step_log, self._poll)
@@ -151,7 +151,7 @@ class SingleRun(Runs):
                 self.fetch_contacts_and_events(0, run, status == RUN_ENDED)
                 if step_log:
                     step_log.observer = self.observers[0]
-                    step_log.flush_rows(run)
+                    step_log.flush_recorded_states(run)
                 current[0] = status == RUN_ENDED
             poll()
 

@@ -56,11 +56,11 @@ class StepLog:
         self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_discrete_states, 1), max(joints, 1))
         self.rows = np.zeros((N_ROWS_OF_BLOCK, sum(self.widths)))
 
-    def register_rows(self, run: Any) -> None:
+    def register_record_buffer(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, is_written=True), len(self.rows))
 
-    def flush_rows(self, run: Any) -> None:
+    def flush_recorded_states(self, run: Any) -> None:
         """Pass copies of the states that C's integrator has written since the last call to the observer; clear them.
 
         Without an observer, the states are discarded.
@@ -127,7 +127,7 @@ class KinematicStepLog:
         self.works = allocate_struct()  # a separate struct of C for the works
         observer(first)
 
-    def register_rows(self, motion_struct: Any, rows: int = N_ROWS_OF_BLOCK) -> None:
+    def register_record_buffer(self, motion_struct: Any, rows: int = N_ROWS_OF_BLOCK) -> None:
         """Make C record the states of the motion in the first `rows` rows from now on; with 0, end the recording."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, is_written=True)
         lib.gudgeon_kinematic_set_recording(motion_struct, where if rows else self.compiled.ffi.NULL, rows)

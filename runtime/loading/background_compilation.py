@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 def build_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
     """Return the compiler's command line for each object file of a scene's code without the engine, by file name.
 
-    A scene is compiled in one part, or in the parts of `source.units`. `quick`: without optimization.
+    A scene is compiled in one part, or in the parts of `source.compilation_units`. `quick`: without optimization.
     """
-    if source.cdef or not source.units:
+    if source.cdef or not source.compilation_units:
         unit = "lanes" if source.cdef else ""
         return {"scene.o": build_unit_command(portable, [source.main], "scene.o", quick, unit)}
-    return dict(_build_unit_command(unit, portable, quick) for unit in source.units)
+    return dict(_build_unit_command(unit, portable, quick) for unit in source.compilation_units)
 
 
 def _build_unit_command(unit: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:

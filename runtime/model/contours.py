@@ -168,9 +168,11 @@ def find_slider_dimensions(source: KernelSource, p: Array, joint: ClearanceInfo)
 
     Values that the file does not give are 0.
     """
-    guide = source.slots[joint.clearance].address.rpartition(".")[0]
+    guide = source.parameters[joint.clearance].address.rpartition(".")[0]
     a, b, radius = (
-        float(p[source.slot_index[address]]) if (address := f"{guide}.{key}") in source.slot_index else 0.0
+        float(p[source.parameter_indices[address]])
+        if (address := f"{guide}.{key}") in source.parameter_indices
+        else 0.0
         for key in ("half_length", "half_height", "corner_radius")
     )
     return guide, a, b, radius

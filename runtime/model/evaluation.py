@@ -245,7 +245,7 @@ def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ..
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,),
-        "multipliers": (len(s.rows),),
+        "multipliers": (len(s.equations),),
         "reactions": (len(s.joints) + len(s.guides), N_REACTION_COLUMNS),
         "torques": (len(s.drives),),
         "clearance": (len(s.clearances), N_CLEARANCE_COLUMNS),
@@ -273,7 +273,7 @@ def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) 
     ):
         field_values[:] = np.nan
     for owner in s.indeterminate:
-        evaluation.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
+        evaluation.multipliers[:, [k for k, row in enumerate(s.equations) if row.owner == owner]] = np.nan
         evaluation.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
         evaluation.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 

@@ -38,7 +38,7 @@ def check_reference_values(compiled: CompiledModel) -> None:
         _compare_parameter_values(
             compiled,
             stored_values,
-            _compute_parameter_values(compiled, make_given_parameters(compiled.source.slots, parity)),
+            _compute_parameter_values(compiled, make_given_parameters(compiled.source.parameters, parity)),
         )
     for state in reference["states"]:
         values = state["values"]
@@ -54,7 +54,10 @@ def _compute_parameter_values(compiled: CompiledModel, values_by_index: Mapping[
 
     `values_by_index` maps indices to values (SI).
     """
-    values, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=np.uint8)
+    values, is_given = (
+        np.zeros(len(compiled.source.parameters)),
+        np.zeros(len(compiled.source.parameters), dtype=np.uint8),
+    )
     for k, value in values_by_index.items():
         values[k], is_given[k] = value, 1
     return compiled.prepare(values, is_given)

@@ -70,7 +70,7 @@ def select_lengths(source: KernelSource, p: Array) -> Array:
 
 def scatter_lengths(source: KernelSource, lengths: Array) -> Array:
     """Return parameter values (n_p,) from the result of `select_lengths`; all others are NaN."""
-    p = np.full(len(source.slots) + len(source.derived), np.nan)
+    p = np.full(len(source.parameters) + len(source.derived), np.nan)
     p[find_length_indices(source)] = lengths
     return p
 
@@ -123,7 +123,9 @@ def find_size_indices(source: KernelSource) -> list[tuple[int, int]]:
     are (index, −1). Points without any coordinate in p are left out.
     """
     index_pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
-    lengths = [parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.slots]
+    lengths = [
+        parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.parameters
+    ]
     index_pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
     return [pair for pair in index_pairs if pair[0] >= 0]
 

@@ -310,7 +310,7 @@ def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bo
 
     `p` (n, n_parameters + n_derived): parameters of all runs; `is_given` (n, n_parameters): mask of those given.
     """
-    given_parameters = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
+    given_parameters = [(source.parameters[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
     return {parameter.address: format_values_of_runs(parameter, values) for parameter, values in given_parameters}
 
 

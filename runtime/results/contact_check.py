@@ -204,7 +204,7 @@ def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
     of the bodies in the middle is `angle` of the joint, or else the direction of `axis`.
     """
     first, second = _find_end_point_names(run, joint)
-    parameter_indices = run.source.slot_index
+    parameter_indices = run.source.parameter_indices
     values = {
         key: float(run.p[parameter_indices[address]])
         if (address := f"joints.{joint.joint}.{key}") in parameter_indices
@@ -226,7 +226,7 @@ def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
 
 def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
     """Return whether the mechanism file specifies the mounting angle of the joint."""
-    return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.written)
+    return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.file_expressions)
 
 
 def _find_end_point_names(run: Result, joint: ClearanceInfo) -> tuple[str, str]:

@@ -127,7 +127,7 @@ def find_missing_names(source: KernelSource, expression_json: Any, available_nam
     """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play.
     `available_names` contains the names of series; parameters and t are always available.
     """
-    parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.slots} | {"t"}
+    parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.parameters} | {"t"}
     used_names = [name.path for name in expression_tree.iterate_names(expression_tree.from_json(expression_json))]
     return [path for path in dict.fromkeys(used_names) if path not in available_names and path not in parameter_names]
 
@@ -290,7 +290,7 @@ def _iterate_state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     State variables without a name have no series.
     """
     first_index = len(source.clearances) + len(source.frictions)
-    for k, name in enumerate(source.states):
+    for k, name in enumerate(source.internal_states):
         if name:
             meaning = "internal state of the joint's friction law"
             yield name, _make_stored_series("m", meaning, "memory", first_index + k)
@@ -332,7 +332,7 @@ def _iterate_element_series(source: KernelSource) -> Iterator[tuple[str, Series]
 
 def _iterate_multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the Lagrange multiplier of each constraint equation: "lambda.NAME"."""
-    for k, row in enumerate(source.rows):
+    for k, row in enumerate(source.equations):
         unit = "N" if row.unit == "m" else "N*m"
         yield (
             f"lambda.{row.name}",
@@ -396,8 +396,8 @@ def _make_output_series(
     expression = expression_tree.from_json(expression_json)
     used_names = {name_node.path for name_node in expression_tree.iterate_names(expression)}
     units = {"t": "s"} | {path: series_by_name[path].unit for path in used_names if path in series_by_name}
-    units |= {parameter.address.removeprefix("parameters."): parameter.unit for parameter in source.slots}
-    units |= {parameter.address: parameter.unit for parameter in source.slots}
+    units |= {parameter.address.removeprefix("parameters."): parameter.unit for parameter in source.parameters}
+    units |= {parameter.address: parameter.unit for parameter in source.parameters}
 
     def compute(run: Result) -> Array:
         """Return the values (N,) of the expression at the samples of a run."""
@@ -446,7 +446,7 @@ def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
 
 def list_parameter_names(source: KernelSource) -> set[str]:
     """Return the addresses of a scene's run-time parameters, and the short names of its `parameters`."""
-    addresses = {parameter.address for parameter in source.slots}
+    addresses = {parameter.address for parameter in source.parameters}
     return addresses | {address.removeprefix("parameters.") for address in addresses}
 
 

@@ -31,7 +31,7 @@ from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.default_step import evaluate_scene_end, evaluate_scene_number, evaluate_scene_step
+from gudgeon.model.default_step import evaluate_scene_end_time, evaluate_scene_option, evaluate_scene_step
 from gudgeon.model.parameters import insert_space_before_unit, read_parameter_value
 from gudgeon.simulation.audit import parse_audit_level
 
@@ -114,7 +114,7 @@ def evaluate_end_time(source: KernelSource, t_end: float | str | None, p: Array)
         return t_end
     values_by_name = {
         parameter.address.removeprefix("parameters."): (float(number), parameter.dimension)
-        for parameter, number in zip(source.slots, p, strict=False)
+        for parameter, number in zip(source.parameters, p, strict=False)
     }
     return evaluate_expression(insert_space_before_unit(t_end), "t_end", (0, 0, 1), values_by_name)
 
@@ -146,10 +146,10 @@ def compute_output_times(
             None if t_end is None else parse_seconds("t_end", t_end), float(times[-1]), rounding
         )
         return times, requested
-    end = parse_seconds("t_end", evaluate_scene_end(source, p) if t_end is None else t_end)
+    end = parse_seconds("t_end", evaluate_scene_end_time(source, p) if t_end is None else t_end)
     if not end > t0:
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
-    intervals = evaluate_scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
+    intervals = evaluate_scene_option(source, "output", p, DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MAX_OUTPUT:
         raise BadValueError(f"output is {shorten_value(intervals)}: expected {OUTPUT}")
     _check_duration("t_end is", t0, end, 4 * int(intervals))
@@ -262,7 +262,7 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
         fitting_methods = (
             *fitting_methods,
             ADAPTIVE,
-            *(() if source.states else driver.NAMES),
+            *(() if source.internal_states else driver.NAMES),
         )  # reference solvers integrate no internal states
     if source.taylor:
         fitting_methods = (*fitting_methods, *SMOOTH)
@@ -281,9 +281,9 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
         reason = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
         if source.rigid:
             reason = source.reason_without_jacobian
-        elif source.states:
+        elif source.internal_states:
             reason = (
-                f"a law has an internal state ({next(filter(None, source.states))}),"
+                f"a law has an internal state ({next(filter(None, source.internal_states))}),"
                 " which reference solvers do not integrate"
             )
         *others, last = source.methods

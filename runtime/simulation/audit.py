@@ -268,7 +268,7 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
 @cache_by_values
 def list_given_coordinates(source: KernelSource) -> tuple[tuple[int, int], ...]:
     """Return pairs of indices for the coordinates in the file's `start.set`: of the coordinate and its parameter."""
-    indices = ((k, source.slot_index.get(f"start.set.{name}")) for k, name in enumerate(source.coordinates))
+    indices = ((k, source.parameter_indices.get(f"start.set.{name}")) for k, name in enumerate(source.coordinates))
     return tuple((k, i) for k, i in indices if i is not None and source.coordinates[k] in source.start_set)
 
 

@@ -264,10 +264,10 @@ def clear_oil_viscosities(compiled: CompiledModel, p: Array) -> Array:
 
     The derived parameters are computed again.
     """
-    slots = compiled.source.slots
-    values = p[: len(slots)].copy()
-    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
-    return compiled.prepare(values, np.ones(len(slots), dtype=bool))
+    parameters = compiled.source.parameters
+    values = p[: len(parameters)].copy()
+    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in parameters]] = 0.0
+    return compiled.prepare(values, np.ones(len(parameters), dtype=bool))
 
 
 def _compute_compression_time(run: Result, repetition: Result, k: int, name: str) -> float:
@@ -340,10 +340,10 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
     if ideal is None or run.source.massless or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
-        addresses = {parameter.address for parameter in ideal.source.slots}
+        addresses = {parameter.address for parameter in ideal.source.parameters}
         values = {
             parameter.address: run.parameters[parameter.address]
-            for parameter in run.source.slots
+            for parameter in run.source.parameters
             if parameter.address in addresses
         }
         try:

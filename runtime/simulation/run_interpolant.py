@@ -226,7 +226,7 @@ class RunInterpolant:
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
         q, v = self._interpolate_motion(k, t, s)
         discrete_states = np.repeat(x.memory[k : k + 1], len(t), axis=0)
-        states = slice(discrete_states.shape[1] - len(self.source.states), None)
+        states = slice(discrete_states.shape[1] - len(self.source.internal_states), None)
         discrete_states[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
         works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)

@@ -170,7 +170,9 @@ def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array
         mode, slip = memory[:, len(source.clearances) + k], slips[:, k]
         rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= MAX_STICK_SPEED))
         rests_successively = rests[1:] & rests[:-1]
-        static = source.slot_index.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
+        static = source.parameter_indices.get(
+            f"forces.{name}.static"
+        )  # None: the file has 0 N, which no parameter changes
         if rests_successively.any() and static is not None and problem.p[static] > 0.0:
             t_rest, count = float(t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
             notes.append(

@@ -27,9 +27,9 @@ from gudgeon.model.contours import read_contours, select_contours_of_run
 from gudgeon.model.evaluation import check_sample_memory
 from gudgeon.model.parameter_sets import (
     ParameterSets,
-    prepare_values_of_runs,
+    compute_parameter_values_of_runs,
     read_each_run,
-    read_parameter_rows,
+    read_parameter_sets,
     read_runs_with_equal_names,
 )
 from gudgeon.model.sizes import compute_mechanism_sizes
@@ -117,7 +117,7 @@ def simulate_many(
     selected = select_method(source, method, step is not None)
     tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
     options = _BatchOptions(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
-    p, p_motion, failures = prepare_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
+    p, p_motion, failures = compute_parameter_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
     failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
     check_sample_memory(compiled, times.max_count, len(p), series, find_evaluation_parts(source, series or ()), workers)
@@ -206,7 +206,7 @@ class _Starts:
         contours: dict[str, Array],
     ) -> None:
         self.compiled, self.contours = simulation.compiled, contours
-        rows, self.failures = read_parameter_rows(parameters)
+        rows, self.failures = read_parameter_sets(parameters)
         count = next((len(contour) for contour in contours.values() if contour.ndim == 2), len(rows))
         if count != len(rows) and len(rows) > 1:
             hint = "one contour, or one for every run"
@@ -254,7 +254,7 @@ class _Starts:
         errors: dict[int, Any] = {}
         source = self.compiled.source
         has_journal_positions = (
-            source.start_apart or any(joint.is_corner for joint in source.clearances)
+            source.eccentricity_equations or any(joint.is_corner for joint in source.clearances)
         ) and not self.states
         for i in range(len(p) if has_journal_positions or self.states else 0):
             if i in failures:

@@ -241,7 +241,7 @@ class WearObserver:
         s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
         q, v = self._interpolate_motion(k, s)
         discrete_states = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
-        states = slice(discrete_states.shape[2] - len(self.compiled.source.states), None)
+        states = slice(discrete_states.shape[2] - len(self.compiled.source.internal_states), None)
         discrete_states[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, discrete_states))
         evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, field_names=("clearance",))

@@ -144,7 +144,7 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     write(source, folder)
     text, message = f'#include "{source.main}"\n#include "engine/engine.c"\n', select_declarations(source)
     if source.formulation == "reduced":
-        chained = bool(source.chain)
+        chained = bool(source.driven_loop_coordinates)
         state = "at.q, at.v" if chained else "s, rate"
         seat = (
             "TreeState at;\n    if (solve_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
@@ -171,7 +171,7 @@ def _compile(flags: list[str], folder: Path) -> None:
 def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
     """Tree and absolute equations at states near a start, the events against their text; False: nothing starts."""
     rng, t = np.random.default_rng(seed), 0.37
-    slots = len(compiled.source.slots)
+    slots = len(compiled.source.parameters)
     reduced = Reduced(compiled, compiled.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
     try:
         start = assemble_start(compiled, reduced.p, t)
@@ -255,7 +255,7 @@ def _as_written(compiled: CompiledModel, file: RandomFile, reduced: Reduced, t: 
     """Values of the events by NumPy from the file's text, at absolute coordinates."""
     mechanism = read_mechanism(file.text.encode(), "f")
     source, p = compiled.source, reduced.p
-    slots = {slot.address: p[k] for k, slot in enumerate(source.slots)}
+    slots = {slot.address: p[k] for k, slot in enumerate(source.parameters)}
     known: dict[str, float] = {}
     for k, body in enumerate(mechanism.bodies):
         values = (*q[3 * k : 3 * k + 3], *v[3 * k : 3 * k + 3])

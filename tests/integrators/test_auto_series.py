@@ -98,8 +98,8 @@ def test_tight_tolerances_load_the_series_on_request(tmp_path: Path, at_once: Se
     spring, rtol = gudgeon.load(file), 1e-11
     file.unlink()
     assert spring.simulate(0.1, output=1).diagnostics.method == EXPLICIT
-    name = next(name for name in spring.source.slot_index if name.endswith(".mass"))
-    mass = spring.source.slots[spring.source.slot_index[name]].default
+    name = next(name for name in spring.source.parameter_indices if name.endswith(".mass"))
+    mass = spring.source.parameters[spring.source.parameter_indices[name]].default
     batch, singly = both(spring, {name: np.linspace(mass, 1.2 * mass, COUNT)}, 0.2, rtol=rtol)
     assert_same_batches(batch, singly)
     assert len(at_once.used) >= COUNT

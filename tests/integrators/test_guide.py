@@ -313,7 +313,7 @@ def test_equations_in_numpy_are_those_in_c(folder: Path) -> None:
     simulation = made(folder, ARM, "elastic")
     run = simulation.simulate(2e-3, output=40)
     numpy_model, compiled = simulation.model.numpy(), simulation.compiled
-    p, parameters = numpy_model.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.slots))))
+    p, parameters = numpy_model.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.parameters))))
     assert (run.state > 0).any()
     for t, q, v, contact_state in zip(run.t, run.q, run.v, run.memory, strict=True):
         actual = numpy_model.dynamics(t, q, v, p, contact_state)

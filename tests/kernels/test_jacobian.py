@@ -11,7 +11,7 @@ import gudgeon
 from gudgeon.assembly.start import Start
 from gudgeon.errors import SingularError
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.shipped import GENERATED, find_shipped_file, list_generated
+from gudgeon.loading.shipped import GENERATED, find_shipped_file, list_generated_scenes
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
@@ -51,7 +51,7 @@ start: {guess: {a.theta: 0.4 rad, c.x: 0.8 m}}
 
 INTEGRATED = [  # read, not loaded: a file that is collected compiles nothing
     (name, source.scene)
-    for name in list_generated()
+    for name in list_generated_scenes()
     for source in read_scenes(GENERATED / name)
     if "rk4" in source.methods
 ]

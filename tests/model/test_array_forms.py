@@ -164,7 +164,7 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
     model, n = simulation.compiled, simulation.compiled.n
     p, ones = simulation.p.astype(np.float32).astype(np.float64), np.ones(len(simulation.p))
     nothing, one = np.full(model.n_discrete_states, np.nan), np.ones(model.n_discrete_states)
-    given, mask = p[: len(simulation.source.slots)], np.arange(len(simulation.source.slots)) % 2.0
+    given, mask = p[: len(simulation.source.parameters)], np.arange(len(simulation.source.parameters)) % 2.0
 
     def argument(name: str, values: Numbers, others: Numbers, call: Callable[[Any], Any]) -> Argument:
         return Argument(f"compiled.{name}", values, others, lambda x: raw(call(x)))

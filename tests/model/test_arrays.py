@@ -118,7 +118,7 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
     """argument -> its length (last axis) and a call with it."""
     y, q, r = np.zeros(2 * model.n), np.zeros(model.n), np.zeros(2 * model.n + 3)
     t, rows, latched = np.zeros(2), np.zeros((2, model.n)), np.full((2, model.n_discrete_states), np.nan)
-    slots = len(model.source.slots)
+    slots = len(model.source.parameters)
     return {
         "y": (2 * model.n, lambda x: model.rhs(0.0, x, p)),
         "p": (len(p), lambda x: model.rhs(0.0, y, x)),

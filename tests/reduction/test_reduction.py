@@ -82,7 +82,7 @@ def check_state(
     library = reduced.library
     numbers.chains = reduced.chains(t, s)
     q, v = reduced.expand(t, s, rate)
-    assert close(library.phi(t, q, reduced.p), np.zeros(len(library.source.rows)), 1e-12, 1.0)
+    assert close(library.phi(t, q, reduced.p), np.zeros(len(library.source.equations)), 1e-12, 1.0)
     assert close(
         library.phi_q(t, q, reduced.p) @ v - library.nu(t, q, reduced.p), np.zeros(1), 1e-11, abs(v).max() + 1.0
     )
@@ -96,7 +96,7 @@ def check_state(
     for (i, k, _), value in zip(jacobian, numbers([e for *_, e in jacobian], t, s, rate), strict=True):
         got[i] += value * a[k]
     assert close(got, want.a[0], 1e-9, 1.0)
-    index = {row.name: r for r, row in enumerate(library.source.rows)}
+    index = {row.name: r for r, row in enumerate(library.source.equations)}
     shares = [numbers.system.tree.find_multiplier_terms(name) for name in library.source.closures]
     carried = [sum(sign * want.multipliers[0][index[row]] for row, sign in share.items()) for share in shares]
     assert close(multipliers, np.array(carried), 1e-8, float(abs(want.multipliers).max(initial=0.1)))
@@ -130,7 +130,7 @@ def reduced_case(case: Case) -> tuple[Model, Reduced]:
     model = derive_scene(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
     source = generate_c(model)
     library = CompiledModel(source, compile_kernels(source))
-    slots = len(source.slots)
+    slots = len(source.parameters)
     return model, Reduced(library, library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
 
 

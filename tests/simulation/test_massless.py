@@ -87,7 +87,7 @@ def test_what_follows_from_masses_is_left_out(tmp_path: Path) -> None:
     run = gudgeon.load(stripped(KINEMATIC[0], tmp_path)).simulate(t_end=0.1, output=10)
     message = [name for name in run.names if re.search(r"\.(F|Fx|Fy|M|torque)$|^(lambda|energy|work)\.", name)]
     assert not message
-    joint, row = run.source.joints[0].name, run.source.rows[0].name
+    joint, row = run.source.joints[0].name, run.source.equations[0].name
     for name in ("energy.kinetic", "work.drives", f"{joint}.F", f"lambda.{row}"):
         with pytest.raises(UnknownNameError, match="have no mass or no inertia\n  give every body mass: and inertia:"):
             run[name]
@@ -155,7 +155,7 @@ def test_mass_without_inertia_asks_for_nothing_where_nothing_moves_by_forces(tmp
     file = stripped("mechanisms/slider_crank.yaml", tmp_path, "inertia", "rod")
     source = gudgeon.load(file, scene="ideal").source
     assert source.massless == ("rod",)
-    assert not [slot.address for slot in source.slots if slot.address.endswith((".mass", ".inertia"))]
+    assert not [slot.address for slot in source.parameters if slot.address.endswith((".mass", ".inertia"))]
 
 
 def test_auto_without_a_mass_lacks_the_mass_alone(tmp_path: Path) -> None:

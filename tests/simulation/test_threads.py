@@ -71,7 +71,7 @@ def simulate(options: dict[str, Any], output: int = 200) -> Callable[[Simulation
 
 def many(options: dict[str, Any], n_runs: int = 4) -> Callable[[Simulation], object]:
     def work(simulation: Simulation) -> object:
-        slot = next(slot for slot in simulation.source.slots if slot.default)
+        slot = next(slot for slot in simulation.source.parameters if slot.default)
         columns = {slot.address: slot.default * np.linspace(1.0, 1.1, n_runs)}
         return simulation.simulate_many(columns, 0.05, output=200, threads=1, **options)["energy.kinetic"]
 

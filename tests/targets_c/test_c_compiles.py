@@ -17,7 +17,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.engine import build_include_flags, parse_sizes, select_declarations
-from gudgeon.loading.shipped import find_shipped_file, list_generated
+from gudgeon.loading.shipped import find_shipped_file, list_generated_scenes
 from tests.slow import slow_but
 
 METHODS, VALID = (Path(__file__).parents[1] / "mechanisms" / folder for folder in ("methods", "valid"))
@@ -26,7 +26,7 @@ WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AM
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
     (name, scene)
-    for name in list_generated()
+    for name in list_generated_scenes()
     for scene in read_mechanism(find_shipped_file(name).read_bytes(), name, None).scenes
 ]
 WIDEST = ("nine_bar_press", "lubricated")  # under every width of vectors; the others under the first
@@ -112,7 +112,7 @@ def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequen
 def test_no_warning(compiler: str, of: tuple[str, str], tmp_path: Path) -> None:
     source = gudgeon.load(*of).source
     main = write(source, tmp_path)
-    for part in ("0", *map(str, source.units)):
+    for part in ("0", *map(str, source.compilation_units)):
         compile_c(compiler, main, [*FLAGS, f"-DPART={part}", "-c", "-o", "scene.o"])
     engine = ["-Wshadow", "-Wconversion", "-Wmissing-prototypes"]
     (tmp_path / "loops.c").write_text('#include "engine/engine.c"\n', encoding="utf-8")

@@ -105,7 +105,9 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
     folder, rng = tmp_path_factory.mktemp("play"), np.random.default_rng(11)
     simulation, found = derived(request.param, folder)
     compiled, start, count = simulation.compiled, simulation.start(), 4000
-    p = compiled.prepare(np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=bool))
+    p = compiled.prepare(
+        np.zeros(len(compiled.source.parameters)), np.zeros(len(compiled.source.parameters), dtype=bool)
+    )
     q = start.q + np.geomspace(2e-5, 2e-3, count)[:, None] * rng.uniform(-1.0, 1.0, compiled.n)
     v = start.v + rng.normal(0.0, 0.2, (count, compiled.n))
     joints = [joint.label for joint in found.model.clearances]

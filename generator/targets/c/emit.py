@@ -88,7 +88,7 @@ def describe_program(
         units=compilation_units,
         pivots=program.kkt.pivots,
         start_pivots=kinematics.pivots if kinematics else (),
-        motion_pivots=integrated.pivots,
+        integrated_pivots=integrated.pivots,
         operations=_count_function_operations(program),
         tree_coordinates=tree.system.unknowns if tree else (),
         driven_loops=integrated.driven_loops,

@@ -275,5 +275,6 @@ class Contacts:
 
 def _find_velocity_floor(compiled: CompiledModel, p: Array) -> float:
     """Return the smallest approach speed δ̇⁻ (m/s) that an onset stores: the smallest `velocity_floor` of the scene."""
-    slots = enumerate(compiled.source.slots)
-    return min((float(p[k]) for k, parameter in slots if parameter.address.endswith(".velocity_floor")), default=0.0)
+    parameters = enumerate(compiled.source.parameters)
+    floors = (float(p[k]) for k, parameter in parameters if parameter.address.endswith(".velocity_floor"))
+    return min(floors, default=0.0)

@@ -72,7 +72,7 @@ def build_batch_tables(batch: Batch) -> Iterator[Table]:
         tables_by_run += build_stored_series_tables(batch)
         yield build_long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
     yield Table(RUNS, NUMBER, tuple(_iterate_run_variables(batch, runs)), {})
-    units = {parameter.address: parameter.unit for parameter in batch.source.slots}
+    units = {parameter.address: parameter.unit for parameter in batch.source.parameters}
     given_variables = (
         Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items()
     )
@@ -469,7 +469,9 @@ def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mappin
     if not file.has_entry(GIVEN):
         return {}
     given_parameters = {
-        parameter.address: parameter for parameter in source.slots if file.has_entry(f"{GIVEN}/{parameter.address}")
+        parameter.address: parameter
+        for parameter in source.parameters
+        if file.has_entry(f"{GIVEN}/{parameter.address}")
     }
     if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_parameters, NUMBER}):
         raise ValueError(f"{unknown_names[0][:64]!r} was given, but its scene has no such parameter")

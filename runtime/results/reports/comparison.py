@@ -83,7 +83,7 @@ def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[
         tuple(find_sample_extreme(name, run.unit(name), run.t, run[name]) for name in names)
         for names in (drive_names, guide_names)
     )
-    remaining_rows = run.source.rows if run.source.formulation == "full" else run.source.closures
+    remaining_rows = run.source.equations if run.source.formulation == "full" else run.source.closures
     values = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
     return SceneReport(
         *values,

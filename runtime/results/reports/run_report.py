@@ -186,11 +186,11 @@ def _find_contact_name(run: Result, joint: ClearanceInfo) -> str:
     """
     source = run.source
     contact_names = [
-        address.split(".")[1] for parameter in source.slots if ".normal." in (address := parameter.address)
+        address.split(".")[1] for parameter in source.parameters if ".normal." in (address := parameter.address)
     ]
-    bearing_name = source.slots[joint.clearance].address.split(".")[1]
+    bearing_name = source.parameters[joint.clearance].address.split(".")[1]
     for name, p_index in joint.constants.items():
-        if (derived_index := p_index - len(source.slots)) >= 0:
+        if (derived_index := p_index - len(source.parameters)) >= 0:
             derived_names = {
                 contact: re.sub("_+", "_", f"{contact}_{bearing_name}_{name}") for contact in contact_names
             }
@@ -440,8 +440,8 @@ def _find_film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
 
 def _compute_length_ratio(run: Result, joint: ClearanceInfo) -> float:
     """Return length over diameter of the journal of a joint with a film."""
-    bearing_address = run.source.slots[joint.constants["R_i"]].address.rpartition(".")[0]
-    length = run.p[run.source.slot_index[f"{bearing_address}.length"]]
+    bearing_address = run.source.parameters[joint.constants["R_i"]].address.rpartition(".")[0]
+    length = run.p[run.source.parameter_indices[f"{bearing_address}.length"]]
     return float(length / (2.0 * run.p[joint.constants["R_j"]]))
 
 
