@@ -261,7 +261,7 @@ def reduction() -> Iterable[Row]:
         simulation = gudgeon.load(name, scene=scene)
         library, start = simulation.compiled, simulation.start()
         reduced = Reduced(library, simulation.p)
-        index = [library.source.coordinates.index(f"{body}.theta") for body in library.source.tree]
+        index = [library.source.coordinates.index(f"{body}.theta") for body in library.source.tree_coordinates]
         s, rate = reduced.reduce(0.0, start.q, start.v)
         for seed in range(4):
             rng = np.random.default_rng(seed)

@@ -41,7 +41,7 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
         if joint.is_corner:
             _check_corner_depth(linkage, p, joint, e - c)
             continue
-        if joint.name in linkage.source.rigid and e > c * (1.0 + CLEARANCE_TOL):
+        if joint.name in linkage.source.rigid_joints and e > c * (1.0 + CLEARANCE_TOL):
             length, limit = format_distinct_numbers(1e3 * e, 1e3 * c)
             raise AssemblyError(
                 f"start.play.{joint.name}.e has a length of {length} mm: expected {limit} mm at most, the clearance,"
@@ -91,7 +91,7 @@ def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth:
 
     The limit is MAX_DEPTH_OVER_RADIUS of half the guide's width; for rigid surfaces, CLEARANCE_TOL of the gap.
     """
-    rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
+    rigid, c = joint.name in linkage.source.rigid_joints, float(p[joint.clearance])
     limit = CLEARANCE_TOL * c if rigid else MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
     if depth > limit:
         why = (
@@ -112,7 +112,7 @@ def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
     Joints with rigid surfaces are left out. The depth of a contour does not count.
     """
     for joint, e, c in _iterate_joints_with_start_position(linkage, p):
-        if e > c and joint.name not in linkage.source.rigid:
+        if e > c and joint.name not in linkage.source.rigid_joints:
             wall = "its wall" if joint.is_corner else "its bearing's wall"
             consequence = "a run begins in contact" if joint.dry else "there is no film there"
             yield (

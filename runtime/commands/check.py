@@ -170,7 +170,7 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
         operations["reduced"] = source.operations["reduced_dynamics"]
     return {
         "formulation": source.formulation,
-        "tree": list(source.tree),
+        "tree": list(source.tree_coordinates),
         "closures": list(source.closures),
         "driven": list(find_eliminated_drive_equations(source)),
         "operations of the accelerations": operations,

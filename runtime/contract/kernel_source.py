@@ -166,6 +166,13 @@ STORED_NAMES = {
     "compilation_units": "units",
     "simulate_expressions": "simulate_written",
     "eccentricity_equations": "start_apart",
+    "tree_coordinates": "tree",
+    "taylor_file": "taylor",
+    "max_taylor_tolerance": "taylor_below",
+    "has_stage_matrices": "stages",
+    "lane_file": "lanes",
+    "rigid_joints": "rigid",
+    "massless_bodies": "massless",
 }
 
 
@@ -196,7 +203,7 @@ class KernelSource:
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
     rate_jumps: tuple[str, ...]  # drives whose rate may jump, which causes impulses
     indeterminate: tuple[str, ...]  # joints and drives whose multipliers are undetermined because of redundancy
-    parameters: tuple[RuntimeParameter, ...]
+    parameters: tuple[RuntimeParameter, ...]  # run-time parameters, in the order of p
     derived: tuple[str, ...]  # names of the derived values that follow the parameters in p
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
@@ -206,11 +213,12 @@ class KernelSource:
     gravity: bool
     formulation: str = "full"  # formulation that is integrated: "reduced" or "full"
     integrated_pivots: tuple[str, ...] = ()  # as pivots, of the formulation that is integrated
-    tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
-    closures: tuple[str, ...] = ()  # constraint equations of the reduced formulation
-    driven_loop_coordinates: tuple[
+    tree_coordinates: tuple[
         str, ...
-    ] = ()  # coordinates that drives determine through loops: evaluated, not integrated
+    ] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
+    closures: tuple[str, ...] = ()  # constraint equations of the reduced formulation
+    # coordinates that drives determine through loops: evaluated, not integrated
+    driven_loop_coordinates: tuple[str, ...] = ()
     driven_loop_equations: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
     reduction_log: ReductionLog = ReductionLog()  # record of the reduction (check -v)
@@ -220,11 +228,11 @@ class KernelSource:
     internal_states: tuple[str, ...] = ()  # internal states of laws, "A.z", equally many per joint with play; "": none
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
     compilation_units: tuple[int, ...] = ()
-    taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
+    taylor_file: str = ""  # file with the Taylor series of the motion; "": the library has none
     # tolerance below which `auto` integrates by the Taylor series, of this library or of the variant; 0: never
-    taylor_below: float = 0.0
-    stages: bool = False  # whether the library has the matrices of methods with coupled stages
-    lanes: str = ""  # file to compile for lanes; "": there is none
+    max_taylor_tolerance: float = 0.0
+    has_stage_matrices: bool = False  # whether the library has the matrices of methods with coupled stages
+    lane_file: str = ""  # file to compile for lanes; "": there is none
     cdef: str = ""  # declarations of `main` where it is compiled without the engine; "": those of the engine
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
     # expressions of `simulate` that depend on parameters; their values are the defaults
@@ -249,13 +257,13 @@ class KernelSource:
 
     reference: Mapping[str, Any] = field(default_factory=dict)  # values by the NumPy target (model/reference.py)
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene requests
-    rigid: tuple[str, ...] = ()  # joints with play and rigid surfaces: Newton's restitution
+    rigid_joints: tuple[str, ...] = ()  # joints with play and rigid surfaces: Newton's restitution
     eccentricity_equations: tuple[
         str, ...
     ] = ()  # equations of joints with play that the start holds open, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements, for drawing
     contours: tuple[ContourInfo, ...] = ()  # joints with play whose bearings have contours
-    massless: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
+    massless_bodies: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
 
     @cached_property
     def parameter_indices(self) -> dict[str, int]:
@@ -280,7 +288,7 @@ class KernelSource:
     @property
     def is_explicit(self) -> bool:
         """Return whether only explicit methods fit: a contact law has no derivatives."""
-        return bool(self.rigid)
+        return bool(self.rigid_joints)
 
     @property
     def reason_without_jacobian(self) -> str:
@@ -290,7 +298,7 @@ class KernelSource:
         """
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
-        contact = f"the contact in {self.rigid[0]}" if self.rigid else ""
+        contact = f"the contact in {self.rigid_joints[0]}" if self.rigid_joints else ""
         return contact and f"{contact} is a constraint that opens and closes (newton_restitution)"
 
     @cached_property
@@ -301,7 +309,7 @@ class KernelSource:
         included if the library has their matrices; those that use the Jacobian only if contact laws have derivatives.
         """
         integrators = tuple(
-            x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.is_explicit and x in NEED_SLOPES)
+            x for x in (*INTEGRATORS, *STAGED * self.has_stage_matrices) if not (self.is_explicit and x in NEED_SLOPES)
         )
         return integrators if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 

@@ -34,7 +34,9 @@ def describe_reduced_system(source: KernelSource) -> Iterator[tuple[str, str]]:
         yield "tree", f"{_format_tree(log)}; {_explain_choice_of_tree(log.costs)}"
     yield (
         "unknowns",
-        "; ".join(_describe_coordinates(source.tree)) or "none" if is_reduced else "all of them: the full formulation",
+        "; ".join(_describe_coordinates(source.tree_coordinates)) or "none"
+        if is_reduced
+        else "all of them: the full formulation",
     )
     if is_reduced:
         noun_phrase = "rows that stay" if len(source.closures) > 1 else "the row that stays"

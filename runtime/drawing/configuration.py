@@ -49,12 +49,12 @@ class Configuration:
 
     @cached_property
     def points(self) -> Mapping[str, PointInfo]:
-        """Points of the scene by name."""
+        """Return the points of the scene by name."""
         return {point.name: point for point in self.source.points}
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:
-        """Bodies of the scene by name."""
+        """Return the bodies of the scene by name."""
         return {body.name: body for body in self.source.bodies}
 
     @cached_property
@@ -73,17 +73,17 @@ class Configuration:
 
     @cached_property
     def _parameter_indices(self) -> Mapping[str, int]:
-        """Index of each parameter by address."""
+        """Return the index of each parameter by address."""
         return {parameter.address: k for k, parameter in enumerate(self.source.parameters)}
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
-        """Joints with a circular clearance (bearings with play) by name."""
+        """Return the joints with a circular clearance (bearings with play) by name."""
         return {joint.name: joint for joint in self.source.clearances if not joint.is_corner}
 
     @cached_property
     def guides(self) -> Mapping[str, tuple[ClearanceInfo, ...]]:
-        """Contacts of the four corners of each slider with play, by the name of the joint."""
+        """Return the contacts of the four corners of each slider with play, by the name of the joint."""
         corners = [contact for contact in self.source.clearances if contact.is_corner]
         return {name: tuple(contact for contact in corners if contact.joint == name) for name in self.source.guides}
 

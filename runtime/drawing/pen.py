@@ -39,17 +39,17 @@ class Pen(JointGeometry):
 
     @property
     def name(self) -> str:
-        """Part to which the shapes belong."""
+        """Return the name of the part to which the shapes belong, such as "joint A"."""
         return f"joint {self.part.name}"
 
     @property
     def unit(self) -> float:
-        """Half a bar's width, m."""
+        """Return half a bar's width, m."""
         return self.layout.unit
 
     @property
-    def on_ground(self) -> bool:
-        """Whether one of the bodies is the ground."""
+    def is_on_ground(self) -> bool:
+        """Return whether one of the bodies is the ground."""
         return self.part.name in self.layout.ground_directions
 
     def compute_body_axis(self, k: int) -> Array:
@@ -78,7 +78,7 @@ class Pen(JointGeometry):
 
         Nothing is added if neither body is the ground.
         """
-        for end in self.part.ends if self.on_ground else ():
+        for end in self.part.ends if self.is_on_ground else ():
             if get_body_name(end) == GROUND:
                 position, direction = (
                     self.configuration.get_position(end),
@@ -88,7 +88,7 @@ class Pen(JointGeometry):
 
     def add_wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
-        if self.on_ground:
+        if self.is_on_ground:
             self.shapes.extend(
                 draw_ground_wall(self.name, position, self.layout.ground_directions[self.part.name], self.unit, 2.0)
             )
@@ -134,7 +134,7 @@ class Pen(JointGeometry):
 
         Rails are on one side without play, on both sides with play. The axis line lies under the block.
         """
-        if not self.on_ground:
+        if not self.is_on_ground:
             self.add_line("axis", compute_guide_ends(self.configuration, self.layout, self.part))
             return
         wall_gap = compute_wall_gap(self.configuration, self.part, self.unit)

@@ -119,7 +119,7 @@ class Rig:
 
     @property
     def size(self) -> float:
-        """Larger side of the box, m."""
+        """Return the larger side of the box, m."""
         return float((self.sketch.high - self.sketch.low).max())
 
     def to_json_data(self, resolution: float = 1e-2 * FRAME_TOL) -> dict[str, Any]:

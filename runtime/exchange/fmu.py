@@ -177,7 +177,7 @@ def _format_header(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    small_rtol = (source.taylor and source.taylor_below) or FINE
+    small_rtol = (source.taylor_file and source.max_taylor_tolerance) or FINE
     methods = {
         rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol))
         for rtol in (small_rtol, 0.5 * small_rtol)
@@ -185,7 +185,11 @@ def _format_header(simulation: Simulation) -> str:
     (first_method_name, stiff_method_name), (first_method_fine, stiff_method_fine) = methods.values()
     gains = [source.parameter_indices[name] for name in GAINS if name in source.parameter_indices]
     sizes, clearance_indices = find_size_indices(source), [joint.clearance for joint in source.clearances]
-    angles = [int(x) for x in find_integrated_angles(source)] if source.tree or source.formulation == "full" else []
+    angles = (
+        [int(x) for x in find_integrated_angles(source)]
+        if source.tree_coordinates or source.formulation == "full"
+        else []
+    )
     output_columns = [(part, column) for _, _, part, column, _ in iterate_outputs(source)]
     defines: dict[str, object] = {
         "FMU_TOKEN": f'"{compute_instantiation_token(source)}"',

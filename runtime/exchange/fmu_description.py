@@ -108,8 +108,9 @@ def explain_exchange_obstacle(source: KernelSource) -> str:
     """
     if source.degrees_of_freedom == 0:
         return "no degrees of freedom: drives determine the motion"
-    if source.frictions or source.rigid:
-        return f"{', '.join((*source.frictions, *source.rigid))}: modes that only the time loops of the engine switch"
+    if source.frictions or source.rigid_joints:
+        names = ", ".join((*source.frictions, *source.rigid_joints))
+        return f"{names}: modes that only the time loops of the engine switch"
     if source.rate_jumps:
         return f"impulses where the rate of {', '.join(source.rate_jumps)} jumps"
     if source.internal_states:
@@ -126,7 +127,7 @@ def list_states(source: KernelSource) -> list[tuple[str, str]]:
     """
     if explain_exchange_obstacle(source):
         return []
-    names = source.tree if source.formulation == "reduced" else source.coordinates
+    names = source.tree_coordinates if source.formulation == "reduced" else source.coordinates
     angles = find_integrated_angles(source)
     position_states = [
         (f"state.{name}", "rad" if is_angle else "m") for name, is_angle in zip(names, angles, strict=True)

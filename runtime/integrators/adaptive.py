@@ -94,7 +94,7 @@ def select_stiff_method(source: KernelSource, rtol: float) -> str:
 
     It is rodas5p, or with a film radau5 (radau9 for rtol below FINE) if the library has their stages.
     """
-    return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
+    return STAGED[rtol < FINE] if source.has_stage_matrices and _has_film(source) else STIFF
 
 
 def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
@@ -115,7 +115,7 @@ def select_explicit_method(source: KernelSource, rtol: float) -> str:
     The generator predicts this tolerance from the number of operations (generator/kernels/taylor.py). A library without
     the series has EXPLICIT only: `lacks_taylor_series`.
     """
-    return TAYLOR if source.taylor and rtol < source.taylor_below else EXPLICIT
+    return TAYLOR if source.taylor_file and rtol < source.max_taylor_tolerance else EXPLICIT
 
 
 def lacks_taylor_series(source: KernelSource, rtol: float) -> bool:
@@ -123,7 +123,7 @@ def lacks_taylor_series(source: KernelSource, rtol: float) -> bool:
 
     The variant TAYLOR of the scene has them.
     """
-    return not source.taylor and rtol < source.taylor_below
+    return not source.taylor_file and rtol < source.max_taylor_tolerance
 
 
 def uses_taylor_series(source: KernelSource, method: str, rtol: float) -> bool:
@@ -165,7 +165,7 @@ def compute_error_lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Arr
 def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
     """Return a mask (n_x,) of the integrated coordinates that are angles, for either formulation."""
     if source.formulation == "reduced":  # tree coordinates: angles are named by their bodies, lengths "guide.slide"
-        return np.array(["." not in name for name in source.tree], dtype=bool)
+        return np.array(["." not in name for name in source.tree_coordinates], dtype=bool)
     return find_angles(source)
 
 

@@ -165,11 +165,11 @@ def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
 
     Its advice depends on whether the scene has rigid contacts, dry friction, or forces with switching points.
     """
-    if compiled.source.rigid:
+    if compiled.source.rigid_joints:
         return SolverError(
             f"contacts collide, or open and close, without end near t = {t:.9g} s\n"
-            f"  use a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)}, which closes them"
-            " earlier",
+            f"  use a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid_joints)}, which"
+            " closes them earlier",
             t,
         )
     source = compiled.source

@@ -88,7 +88,7 @@ class CompiledModel:
 
         False without masses, for redundant constraints, and for drives with `mod`.
         """
-        return not (self.source.massless or self.source.indeterminate or self.has_mod_in_drives)
+        return not (self.source.massless_bodies or self.source.indeterminate or self.has_mod_in_drives)
 
     @cached_property
     def may_drive_acceleration_jump(self) -> bool:

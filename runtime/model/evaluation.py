@@ -268,7 +268,7 @@ def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) 
     s = compiled.source
     for field_values in (
         (evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.energy, evaluation.power)
-        if s.massless
+        if s.massless_bodies
         else ()
     ):
         field_values[:] = np.nan

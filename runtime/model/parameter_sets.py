@@ -170,10 +170,8 @@ def read_runs_with_equal_names(
         or any(source.parameters[k].words for k in parameter_indices)
     ):
         return None
-    shape = (
-        len(index_by_address),
-        len(parameter_sets),
-    )  # parameter by parameter: memory of those not given stays untouched
+    # parameter by parameter: memory of those not given stays untouched
+    shape = (len(index_by_address), len(parameter_sets))
     given_values, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
     for k, column in zip(parameter_indices, parameter_sets.columns.values(), strict=True):
         numbers = _read_floats(column, source.parameters[k])

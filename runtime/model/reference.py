@@ -100,7 +100,7 @@ def _compare_values(
     """
     expected = np.array(stored_values, dtype=float)  # None is NaN
     is_known = np.isfinite(expected) & (
-        np.isfinite(values) if compiled.source.massless or compiled.source.indeterminate else True
+        np.isfinite(values) if compiled.source.massless_bodies or compiled.source.indeterminate else True
     )
     scale = np.abs(expected[is_known]).max(initial=0.0)
     differences = np.abs(values[is_known] - expected[is_known])

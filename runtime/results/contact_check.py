@@ -117,7 +117,7 @@ def check_contact_samples(run: Result, run_with_peaks: Result | None = None) -> 
         faults += _find_sample_faults(
             run, joint, "force", is_free & (penetration[:, k] <= depth_limit) & carries_force, penetration[:, k], force
         )
-        if joint.name in run.source.rigid and run.compiled is not None:
+        if joint.name in run.source.rigid_joints and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             pulls = ~is_free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
             faults += _find_sample_faults(run, joint, "pull", pulls, penetration[:, k], force)
@@ -165,10 +165,10 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, max_touching_fo
     The excess must be above PEAK_TOL, or PEAK_TOL_FIXED for a fixed step. Joints with a film and rigid guides are
     skipped. `max_touching_force` (N) is the largest force of samples with |penetration| up to MIN_TOUCHING_PENETRATION.
     """
-    if joint.film or (joint.is_corner and joint.joint in run.source.rigid):
+    if joint.film or (joint.is_corner and joint.joint in run.source.rigid_joints):
         return
     impacts = run.impacts[run.impacts["joint"] == k]
-    if joint.name in run.source.rigid:  # F_peak of a rigid impact is an impulse
+    if joint.name in run.source.rigid_joints:  # F_peak of a rigid impact is an impulse
         impacts = impacts[impacts["t_off"] != impacts["t_on"]]
     max_contact_force = float(impacts["F_peak"].max(initial=0.0))
     force_extremes = [

@@ -460,7 +460,7 @@ def make_evaluated_samples(
         accelerations=None,
         state=state,
         memory=discrete_states,
-        work=np.full_like(work, np.nan) if source.massless else work,
+        work=np.full_like(work, np.nan) if source.massless_bodies else work,
         impacts=np.zeros(0, IMPACT_DTYPE),
         diagnostics=cast(Diagnostics, None),
         parts=field_names,

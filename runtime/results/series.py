@@ -105,7 +105,11 @@ def _build_catalogue(source: KernelSource) -> dict[str, Series]:
     a name in their expression is missing.
     """
     series_by_name: dict[str, Series] = {}
-    for series_of in (_iterate_body_series, _iterate_point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
+    for series_of in (
+        _iterate_body_series,
+        _iterate_point_series,
+        *(_MOTION_ALONE if source.massless_bodies else _PARTS),
+    ):
         series_by_name.update(series_of(source))
     for name, expression_json in source.outputs.items():
         if not find_missing_names(source, expression_json, series_by_name):
@@ -118,9 +122,10 @@ MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
 
 def explain_missing_masses(source: KernelSource) -> str:
     """Return why quantities that depend on masses are unknown ("S9 has no mass or no inertia"); "" if all are known."""
-    if not source.massless:
+    if not source.massless_bodies:
         return ""
-    return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
+    names = source.massless_bodies
+    return f"{', '.join(names)} {'has' if len(names) == 1 else 'have'} no mass or no inertia"
 
 
 def find_missing_names(source: KernelSource, expression_json: Any, available_names: Container[str]) -> list[str]:
@@ -426,9 +431,9 @@ def make_unknown_series_error(
     if name in source.outputs:
         missing = ", ".join(find_missing_names(source, source.outputs[name], available_series))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
-        hint = MASSLESS_HINT if source.massless else hint
+        hint = MASSLESS_HINT if source.massless_bodies else hint
         return UnknownNameError(f"output {name!r} needs {missing}, which scene {source.scene!r} lacks", hint=hint)
-    if (reason := explain_missing_masses(source)) and name in get_catalogue(replace(source, massless=())):
+    if (reason := explain_missing_masses(source)) and name in get_catalogue(replace(source, massless_bodies=())):
         return UnknownNameError(f"{name!r} is not known: {reason}", hint=MASSLESS_HINT)
     nearest_names = find_near_names(name, available_series)
     hint = f"nearest: {', '.join(nearest_names)}" if nearest_names else "run.names lists all names"

@@ -236,13 +236,13 @@ def find_required_variant(source: KernelSource, method: str, rtol: float | str |
     library. Raises BadValueError for such a run with an invalid `rtol`.
     """
     if method in STAGED:
-        return "" if source.stages or source.reason_without_jacobian else STAGES
-    if method == "auto" and source.taylor_below and not source.taylor and not has_step:
+        return "" if source.has_stage_matrices or source.reason_without_jacobian else STAGES
+    if method == "auto" and source.max_taylor_tolerance and not source.taylor_file and not has_step:
         is_missing = (
             adaptive.lacks_taylor_series(source, adaptive.parse_tolerance(rtol, ADAPTIVE, False)) and has_compiler()
         )
         return TAYLOR if is_missing else ""
-    return method if method in SMOOTH and not source.taylor else ""
+    return method if method in SMOOTH and not source.taylor_file else ""
 
 
 def select_method(source: KernelSource, method: str, has_step: bool) -> str:
@@ -264,7 +264,7 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
             ADAPTIVE,
             *(() if source.internal_states else driver.NAMES),
         )  # reference solvers integrate no internal states
-    if source.taylor:
+    if source.taylor_file:
         fitting_methods = (*fitting_methods, *SMOOTH)
     if method == "auto":
         return (
@@ -279,7 +279,7 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting_methods:
         reason = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
-        if source.rigid:
+        if source.rigid_joints:
             reason = source.reason_without_jacobian
         elif source.internal_states:
             reason = (

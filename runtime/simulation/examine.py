@@ -120,7 +120,7 @@ def _examine_joints(
     examined_joints = tuple(
         _examine_joint(run, repetition, dry_repetition, k, joint, indices, weights) for k, joint in enumerate(joints)
     )
-    if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
+    if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid_joints:
         return examined_joints
     remainder = -float(
         weights @ repetition.evaluation.power[indices, 2]
@@ -221,7 +221,7 @@ def _examine_joint(
             angle = np.arctan2(repetition[f"{name}.ey"][indices], repetition[f"{name}.ex"][indices]) - theta
             radial_force = -repetition[f"{name}.Fn"][indices] / np.hypot(1.0, interpolate_depth(depths, angle, 1) / e)
         normal = np.where(e > 0.0, radial_force, 0.0) * repetition[f"{name}.deltadot"][indices]  # W, by the forces
-    rigid = name in run.source.rigid  # closed at δ = 0, where its force does no work along the normal
+    rigid = name in run.source.rigid_joints  # closed at δ = 0, where its force does no work along the normal
     touching = (repetition.state[indices, k] > 0) if rigid else joint.dry & (repetition[f"{name}.delta"][indices] > 0.0)
     slip = (dry_repetition[f"{name}.Ft"] * repetition[f"{name}.vt"])[indices]
     film_power = _compute_film_power(repetition, joint)[indices] if joint.film else np.zeros(len(indices))
@@ -337,7 +337,7 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
     A Simulation is run with the same parameters and times. If it fails, a note is appended to `notes`. Return ()
     without play, masses or an ideal scene, and on failure.
     """
-    if ideal is None or run.source.massless or not run.source.clearances:
+    if ideal is None or run.source.massless_bodies or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
         addresses = {parameter.address for parameter in ideal.source.parameters}

@@ -79,7 +79,7 @@ def _build_force_table(source: KernelSource) -> ForceTable:
         for part in source.parts
         for name in (*part.ends, *part.options.values())
         if part.name in source.indeterminate
-        or part.name in source.rigid
+        or part.name in source.rigid_joints
         or (part, None) in elements_of_parts
         or (part.section == "joints" and bodies.intersection(part.options.values()))
     }

@@ -71,7 +71,7 @@ class RunInterpolant:
         self.needs_works = any(depends_on_works(self.source, name) for name in requested)
         self.is_kinematic = self.source.methods == (KINEMATIC,)
         self.has_films = any(joint.film for joint in self.source.clearances)
-        self.has_elastic_contact = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
+        self.has_elastic_contact = any(joint.joint not in self.source.rigid_joints for joint in self.source.clearances)
         self.first: Steps | None = None  # first state of the run: energies count from it
         self.n_without_accelerations = 0  # number of states without accelerations
         self.cached: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # cached evaluations between states

@@ -70,8 +70,8 @@ def check_samples(
             outputs.add_samples(samples)
     all_energy, all_slip = (parts[0] if len(parts) == 1 else np.concatenate(parts) for parts in (energy, slip))
     balance = compute_energy_balance(all_energy, x.work, poll)
-    notes = () if compiled.source.massless else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
-    notes += () if compiled.source.massless else _build_coarse_step_note(problem, *balance)
+    notes = () if compiled.source.massless_bodies else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
+    notes += () if compiled.source.massless_bodies else _build_coarse_step_note(problem, *balance)
     notes += outputs.build_notes()
     if compiled.source.frictions:
         notes += _build_undetermined_friction_notes(problem, x.t[skipped:], x.memory[skipped:], all_slip[skipped:])

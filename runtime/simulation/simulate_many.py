@@ -396,7 +396,7 @@ class _Results:
             q0, counts, t0 = x["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
             range_notes = yield_range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
             notes_by_run[i] = (*notes_by_run.get(i, ()), *range_notes)
-        for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless else ():
+        for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless_bodies else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_missing_mass_note(source))
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_redundancy_note(source))
@@ -434,7 +434,7 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         runs.release_samples()
     else:
         y, state = times.select_requested_samples(x["y"]), times.select_requested_samples(x["state"])
-        work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless else y[:, :, 2 * n :]
+        work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless_bodies else y[:, :, 2 * n :]
         states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
     numbers = {**convert_counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(

@@ -61,7 +61,7 @@ class Flow:
         source = compiled.source
         self.compiled, self.p = compiled, compute_values_without_baumgarte(compiled, run.given, run.is_given)
         self.is_reduced = source.formulation == "reduced"
-        sizes_if_reduced = len(source.tree), len(source.driven_loop_coordinates)
+        sizes_if_reduced = len(source.tree_coordinates), len(source.driven_loop_coordinates)
         self.m, self.n_dep = sizes_if_reduced if self.is_reduced else (compiled.n, 0)
         self.is_angle, self.joints = find_integrated_angles(source), len(source.clearances)
         rows = [row.owner for row in source.start_equations]

@@ -194,7 +194,7 @@ class WearObserver:
         )
         self.joint_index = [clearance.name for clearance in compiled.source.clearances].index(request.joint)
         self.joint = compiled.source.clearances[self.joint_index]
-        self.rigid = self.joint.name in compiled.source.rigid
+        self.rigid = self.joint.name in compiled.source.rigid_joints
         self.p = clear_oil_viscosities(compiled, self.interpolant.p) if self.joint.film else self.interpolant.p
         self.load, self.friction = np.zeros((2, request.points)), np.zeros((2, request.points))
         self.slip, self.first, self.last, self.n_states = 0.0, np.nan, np.nan, 0

@@ -135,7 +135,7 @@ def write(source: KernelSource, folder: Path) -> None:
 def check_syntax(source: KernelSource, folder: Path) -> None:
     """No error, no warning."""
     write(source, folder)
-    files = [source.main, str(UNIT), *([source.lanes] if source.lanes else [])]
+    files = [source.main, str(UNIT), *([source.lane_file] if source.lane_file else [])]
     _compile([*WARNINGS, "-fsyntax-only", *build_include_flags(), *files], folder)
 
 
@@ -237,7 +237,9 @@ def _check(
         _agree("accelerations", tree[:-1] / size, rescued[:-1] / size, np.full(1, np.max(slack[0]) / size + 1e-7))
     else:
         place = {name: k for k, name in enumerate(source.coordinates)}
-        angles = [(k, place[f"{name}.theta"]) for k, name in enumerate(source.tree) if f"{name}.theta" in place]
+        angles = [
+            (k, place[f"{name}.theta"]) for k, name in enumerate(source.tree_coordinates) if f"{name}.theta" in place
+        ]
         mine, theirs = [k for k, _ in angles], [k for _, k in angles]
         _agree("accelerations", tree[mine], everything[theirs], slack[0][mine] + 1e-9 * np.max(abs(everything)))
     _agree("events and their text", of_all, _as_written(compiled, file, reduced, t, q, v), slack[5])

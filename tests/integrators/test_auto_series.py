@@ -74,9 +74,13 @@ def test_the_method_follows_from_scene_and_tolerance() -> None:
     assert [select_first_method(double.source, rtol) for rtol in (1e-3, 1e-8)] == [EXPLICIT, TAYLOR]
     for name, scene in [("slider_crank", "dry"), ("belt_block", "ideal"), ("shaker", "ideal")]:
         source = scene_of(name, scene).source
-        assert not source.taylor and source.taylor_below == 0.0 and select_first_method(source, 1e-12) == EXPLICIT
+        assert (
+            not source.taylor_file
+            and source.max_taylor_tolerance == 0.0
+            and select_first_method(source, 1e-12) == EXPLICIT
+        )
     squeezer = scene_of("andrews_squeezer", "ideal").source
-    assert not squeezer.taylor and 1e-12 < squeezer.taylor_below < RTOL
+    assert not squeezer.taylor_file and 1e-12 < squeezer.max_taylor_tolerance < RTOL
     assert [find_required_variant(squeezer, "auto", rtol, False) for rtol in (None, "1e-8", 1e-12)] == ["", "", TAYLOR]
     assert find_required_variant(squeezer, "auto", 1e-12, True) == ""
     assert select_first_method(double.full.source, 1e-12) == EXPLICIT

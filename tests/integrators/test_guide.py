@@ -330,7 +330,7 @@ def test_many_runs_are_the_single_ones(folder: Path) -> None:
             run = simulation.simulate(0.01, output=10, method=method, rtol=1e-10, parameters=one)
             np.testing.assert_allclose(batch["block.theta"][k], run["block.theta"], atol=1e-7)
             np.testing.assert_allclose(batch["way.rear_lower.Fn"][k], run["way.rear_lower.Fn"], atol=1e-2)
-    assert simulation.source.lanes
+    assert simulation.source.lane_file
 
 
 def test_a_run_goes_on_in_contact(folder: Path) -> None:

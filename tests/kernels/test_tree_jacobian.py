@@ -39,7 +39,7 @@ class Tree:
         zeros = np.zeros(len(simulation.source.parameters))
         self.p = compute_values_without_baumgarte(self.compiled, zeros, zeros.astype(bool))
         self.memory = self.compiled.as_discrete_states(run.memory[-1] if self.compiled.n_discrete_states else None)
-        self.n = len(simulation.source.tree)
+        self.n = len(simulation.source.tree_coordinates)
         chained = len(simulation.source.driven_loop_coordinates)
         q, v = np.zeros(self.n + chained), np.zeros(self.n + chained)
         final = [np.ascontiguousarray(x) for x in (run.q[-1], run.v[-1])]

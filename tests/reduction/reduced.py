@@ -32,7 +32,7 @@ class Reduced:
 
     @property
     def n(self) -> int:
-        return len(self.library.source.tree)
+        return len(self.library.source.tree_coordinates)
 
     @property
     def rows(self) -> int:

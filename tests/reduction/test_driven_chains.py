@@ -80,7 +80,7 @@ def test_table_of_the_shaker_in_closed_form(method: str, step: float | None) -> 
     """
     r, rod, omega = 0.01, 0.06, 60.0 * math.pi
     shaker = gudgeon.load("shaker")
-    assert (shaker.source.tree, shaker.source.closures) == (("arm",), ())
+    assert (shaker.source.tree_coordinates, shaker.source.closures) == (("arm",), ())
     assert (shaker.source.driven_loop_coordinates, shaker.source.driven_loop_equations) == (("rod",), ("guide.offset",))
     run = shaker.simulate(0.1, output=300, method=method, step=step)
     s, c = np.sin(omega * run.t), np.cos(omega * run.t)
@@ -162,7 +162,7 @@ def test_trajectories_reactions_and_drives_of_all_coordinates(name: str, tmp_pat
 def test_chains_in_a_row_and_of_lengths(name: str, chain: tuple[str, ...]) -> None:
     """One group drives the next through a gear; positions of a body that no other one places."""
     reduced, full = (gudgeon.load(str(METHODS / f"{name}.yaml"), formulation=kind) for kind in ("reduced", "full"))
-    assert (reduced.source.tree, tuple(sorted(reduced.source.driven_loop_coordinates))) == (("arm",), chain)
+    assert (reduced.source.tree_coordinates, tuple(sorted(reduced.source.driven_loop_coordinates))) == (("arm",), chain)
     for method in ("dop853", "rodas5p"):
         one, two = (scene.simulate(1.0, output=50, rtol=1e-10, method=method) for scene in (reduced, full))
         assert one.q == pytest.approx(two.q, abs=1e-8)

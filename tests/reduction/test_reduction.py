@@ -148,11 +148,13 @@ def test_random_mechanisms(seed: int) -> None:
     a, _ = numpy_linkage.accelerations(case.linkage, 0.0, case.q, case.v, 0.0, 0.0)
     picked = [
         3 * int(name[1:]) + 2
-        for name in reduced.library.source.tree
+        for name in reduced.library.source.tree_coordinates
         if f"{name}.theta" in reduced.library.source.coordinates
     ]
     angles = [
-        k for k, name in enumerate(reduced.library.source.tree) if f"{name}.theta" in reduced.library.source.coordinates
+        k
+        for k, name in enumerate(reduced.library.source.tree_coordinates)
+        if f"{name}.theta" in reduced.library.source.coordinates
     ]
     assert close(reduced.accelerations(0.0, s, rate, NAN)[0][angles], a[picked], 1e-9, 1.0)
 
@@ -194,7 +196,7 @@ def test_the_press_has_five_angles_and_one_closure() -> None:
     """Driven cranks are functions of t, the slide of the slider follows the rod, its angle does not move."""
     _, simulation = shipped("nine_bar_press", "lubricated")
     source = simulation.compiled.source
-    assert sorted(source.tree) == ["L2", "L3", "L6", "L7", "L8"]
+    assert sorted(source.tree_coordinates) == ["L2", "L3", "L6", "L7", "L8"]
     assert source.closures == ("guide.offset",)
     assert source.operations["reduced_dynamics"] < 0.35 * source.operations["dynamics"]
 
@@ -244,7 +246,7 @@ def test_sines_and_cosines() -> None:
     reduced = Reduced(simulation.compiled, simulation.p)
     names = [f"{body.name}.theta" for body in simulation.source.bodies]
     assert set(names) <= set(simulation.source.coordinates)
-    place = {name: k for k, name in enumerate(simulation.source.tree)}
+    place = {name: k for k, name in enumerate(simulation.source.tree_coordinates)}
     length = 0.18
     k, at = place["L6"], simulation.source.coordinates.index("L6.x")
     for angle in angles:

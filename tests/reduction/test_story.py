@@ -53,7 +53,7 @@ def replay(source: KernelSource) -> tuple[set[str], set[str]]:
 
 def check_ledger(source: KernelSource) -> None:
     coordinates, rows = replay(source)
-    assert coordinates == {absolute_name(source, name) for name in source.tree}
+    assert coordinates == {absolute_name(source, name) for name in source.tree_coordinates}
     assert rows == set(source.closures)
 
 
@@ -83,7 +83,9 @@ def test_freedom_of_shipped_scenes(name: str, scene: str) -> None:
     check_ledger(source)
     closed, _ = near(simulation, 0)
     phi_q = simulation.compiled.phi_q(0.0, closed, simulation.p)
-    assert len(source.tree) - len(source.closures) == len(closed) - (compute_rank(phi_q) if len(phi_q) else 0)
+    assert len(source.tree_coordinates) - len(source.closures) == len(closed) - (
+        compute_rank(phi_q) if len(phi_q) else 0
+    )
     if len(phi_q):
         check_known_angles(source, phi_q)
 
@@ -95,7 +97,7 @@ def test_freedom_of_random_mechanisms(seed: int) -> None:
     source = generate_c(derive_scene(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal"))
     check_ledger(source)
     phi_q = numpy_linkage.rows(case.linkage, 0.0, case.q, case.v).phi_q
-    assert len(source.tree) - len(source.closures) == len(case.q) - compute_rank(phi_q)
+    assert len(source.tree_coordinates) - len(source.closures) == len(case.q) - compute_rank(phi_q)
     check_known_angles(source, phi_q)
 
 
@@ -203,15 +205,15 @@ def test_groups_are_solved_one_after_the_other(name: str) -> None:
     source, groups = simulation.source, simulation.source.reduction_log.groups
     assert source.reduction_log.after is None
     assert sorted(row for group in groups for row in group.rows) == sorted(source.closures)
-    assert sorted(x for group in groups for x in group.coordinates) == sorted(source.tree)
+    assert sorted(x for group in groups for x in group.coordinates) == sorted(source.tree_coordinates)
     _, Phi_s = slopes(Reduced(simulation.compiled, simulation.p), near(simulation, 1)[1])
     solved: list[int] = []
     for group in groups:
         rows = [source.closures.index(row) for row in group.rows]
-        columns = [source.tree.index(name) for name in group.coordinates]
+        columns = [source.tree_coordinates.index(name) for name in group.coordinates]
         solved += columns
         assert abs(np.linalg.det(Phi_s[np.ix_(rows, columns)])) > 1e-6
-        later = [k for k in range(len(source.tree)) if k not in solved]
+        later = [k for k in range(len(source.tree_coordinates)) if k not in solved]
         assert abs(Phi_s[np.ix_(rows, later)]).max(initial=0.0) < 1e-9
 
 
@@ -235,7 +237,7 @@ def test_redundant_rows_are_told() -> None:
     check_ledger(source)
     (step,) = (step for step in source.reduction_log.steps if step.kind == message.REDUNDANT)
     assert step.rows_gone == ("two.x", "two.y") and step.owners == ("two",)
-    assert len(source.tree) - len(source.closures) == 1
+    assert len(source.tree_coordinates) - len(source.closures) == 1
 
 
 def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:

@@ -42,7 +42,7 @@ def test_the_motion_is_the_same_to_the_bit(name: str, tmp_path: Path) -> None:
     requested: dict[str, Any] = {"t_end": 0.1, "output": 200}
     with_masses = gudgeon.load(ROOT / name).simulate(**requested)
     without = gudgeon.load(stripped(name, tmp_path)).simulate(**requested)
-    assert without.source.massless and without.diagnostics.method == "kinematic"
+    assert without.source.massless_bodies and without.diagnostics.method == "kinematic"
     np.testing.assert_array_equal(without.q, with_masses.q)
     for ours, theirs in ((without.v, with_masses.v), (without.a, with_masses.a)):
         np.testing.assert_array_equal(ours[1:], theirs[1:])
@@ -154,7 +154,7 @@ def test_mass_without_inertia_asks_for_nothing_where_nothing_moves_by_forces(tmp
     """And no mass of the others is a number of a run: it would change nothing."""
     file = stripped("mechanisms/slider_crank.yaml", tmp_path, "inertia", "rod")
     source = gudgeon.load(file, scene="ideal").source
-    assert source.massless == ("rod",)
+    assert source.massless_bodies == ("rod",)
     assert not [slot.address for slot in source.parameters if slot.address.endswith((".mass", ".inertia"))]
 
 

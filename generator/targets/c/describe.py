@@ -53,13 +53,13 @@ def describe_scene(
     integrated_pivots: tuple[str, ...] = (),
     formulation: str = "full",
     reduction_log: ReductionLog = EMPTY_REDUCTION_LOG,
-    lanes: str = "",
+    lane_file: str = "",
     driven_loops: DrivenLoops | None = None,
     has_complex_stages: bool = False,
 ) -> KernelSource:
     """Return the KernelSource of a scene: everything that the runtime must know of the model and of its emitted C.
 
-    Facts about the code (files, pivots, lanes, operations) are arguments. They stay empty while only the model is
+    Facts about the code (files, pivots, lane_file, operations) are arguments. They stay empty while only the model is
     known.
     """
     scene, mechanism = model.scene, model.scene.mechanism
@@ -76,7 +76,7 @@ def describe_scene(
         files=files,
         main=main,
         compilation_units=units,
-        stages=has_complex_stages,
+        has_stage_matrices=has_complex_stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_describe_points(model, parameter_index, body_index),
@@ -102,7 +102,7 @@ def describe_scene(
         operations=dict(operations),
         notes=write_scene_notes(model),
         gravity=any(c != 0 for c in model.gravity),
-        tree=tree_coordinates,
+        tree_coordinates=tree_coordinates,
         closures=closures,
         integrated_pivots=integrated_pivots,
         formulation=formulation,
@@ -110,7 +110,7 @@ def describe_scene(
         driven_loop_equations=tuple(row.name for row in driven_loops.rows) if driven_loops else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_find_file_lines(mechanism),
-        massless=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
+        massless_bodies=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
         eccentricity_equations=tuple(model.all_rows[k].name for k, _, _ in find_eccentricity_rows(model)),
@@ -123,9 +123,9 @@ def describe_scene(
         simulate_expressions=tuple(_describe_settings(model)),
         internal_states=_name_internal_states(model),
         reduction_log=reduction_log,
-        lanes=lanes,
+        lane_file=lane_file,
         parts=tuple(_describe_connections(mechanism)),
-        rigid=model.rigid,
+        rigid_joints=model.rigid,
         contours=tuple(_describe_contours(model)),
     )
 

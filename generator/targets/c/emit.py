@@ -68,7 +68,7 @@ def emit_scene(program: Program, on_part_printed: PartCallback | None = None) ->
         }
     files[readme.NAME] = readme.print_readme(program, files)
     described = describe_program(program, files, () if CURVES in files else tuple(parts))
-    return replace(described, taylor=taylor.FILE if series else "", taylor_below=program.taylor_below)
+    return replace(described, taylor_file=taylor.FILE if series else "", max_taylor_tolerance=program.taylor_below)
 
 
 def describe_program(
@@ -101,7 +101,7 @@ def describe_program(
             integrated.system,
             kinematics.groups if kinematics else (),
         ),
-        lanes=lanes_code.MAIN if program.has_lanes else "",
+        lane_file=lanes_code.MAIN if program.has_lanes else "",
         has_complex_stages=program.has_complex_stages,
     )
 

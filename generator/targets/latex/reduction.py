@@ -58,7 +58,7 @@ def _compare_formulations(functions: Functions) -> list[Block]:
     counts = source.operations
     reduced_function = "compute_body_motion" if "compute_body_motion" in counts else "reduced_dynamics"
     rows = [
-        ("coordinates", len(source.coordinates), len(source.tree)),
+        ("coordinates", len(source.coordinates), len(source.tree_coordinates)),
         ("constraint equations", len(source.equations), len(source.closures)),
         *_compare_matrices(log.before, log.after),
         ("operations of a right-hand side", counts["dynamics"], counts.get(reduced_function)),

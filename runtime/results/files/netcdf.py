@@ -448,7 +448,7 @@ def _read_columns(stored_series: Mapping[str, Array], names: list[str], n_sample
 
 def _read_works(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> Array:
     """Return the works of drives, forces and joints with play, (N, 3); NaN for a scene without masses."""
-    if source.massless:
+    if source.massless_bodies:
         return np.full((n_samples, 3), np.nan)
     return _read_columns(stored_series, ["work.drives", "work.forces", "work.clearances"], n_samples)
 

@@ -175,13 +175,13 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
 
     They are coordinates, velocities and works of a batch with states, the stored series, and the series `names`.
     """
-    dimensions, variables = ("run", "time"), dict[str, Any]()
+    dimensions, variables, source = ("run", "time"), dict[str, Any](), batch.source
     if batch.t.ndim == 2:
         variables["t"] = dimensions, batch.t, {"units": "s"}
     for k, name in enumerate(batch.source.coordinates if batch.states else ()):
         for order, (column, values) in enumerate(((name, batch.q), (find_rate_names(name)[0], batch.v))):
             variables[column] = dimensions, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
-    for k, name in enumerate(() if batch.source.massless or not batch.states else ("drives", "forces", "clearances")):
+    for k, name in enumerate(() if source.massless_bodies or not batch.states else ("drives", "forces", "clearances")):
         variables[f"work.{name}"] = dimensions, batch.work[:, :, k], {"units": "J"}
     names = [*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)]
     return variables | {

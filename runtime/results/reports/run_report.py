@@ -290,7 +290,7 @@ def _compute_energy_balance(run: Result) -> dict[str, float] | None:
     the run; "turned_over", the energy throughput. "not_told_apart" is the work of joints with play less the energies
     that contact, friction and film dissipate; it is present only if all joints have contact statistics.
     """
-    if run.source.massless:
+    if run.source.massless_bodies:
         return None
     diagnostics, names = run.diagnostics, ("drives", "forces", "clearances")
     terms = {name: float(run.work[-1, k] - run.work[0, k]) for k, name in enumerate(names)}
@@ -366,7 +366,7 @@ def _list_validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> l
         )
     warnings += find_exceeded_limits(run)
     energy = _compute_energy_balance(run) or {}
-    is_balance_complete = not run.source.rigid  # the energy loss of rigid impacts is in no other term
+    is_balance_complete = not run.source.rigid_joints  # the energy loss of rigid impacts is in no other term
     if is_balance_complete and abs(energy.get("not_told_apart", 0.0)) > UNASSIGNED_WORK_TOL * max(
         abs(energy.get("clearances", 0.0)), 1e-300
     ):
