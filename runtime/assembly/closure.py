@@ -71,6 +71,7 @@ class AssemblyProblem:
     def compute_residual(self, q: Array, p: Array | None = None) -> Array:
         """Return the residuals of all equations (constraint equations, then set coordinates) in m or rad.
 
+        Joints with play are closed, except those with an eccentricity in the file's start: they are held open by it.
         p: other parameter values than those of the problem, or None.
         """
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)

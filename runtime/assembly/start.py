@@ -38,7 +38,8 @@ class Start:
 def assemble_start(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """Return the assembled start of a scene at time t, by C or, if that fails, by the search in Python.
 
-    Raises AssemblyError with equations, joints and residual.
+    From MIN_SPARSE_COORDINATES coordinates on, C is not tried. Raises AssemblyError with equations, joints and
+    residual, or for a start position of a journal that is too deep in its wall.
     """
     check_journal_positions(compiled, p)
     closed = (

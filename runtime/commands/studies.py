@@ -83,7 +83,8 @@ class MeasurementRequest:
     def find_table_path(self, mechanism: str, table_kind: str) -> Path:
         """Return the path of the CSV file: that of --csv, else MECHANISM_KIND.csv in --out, for example pump_map.csv.
 
-        Raises InputError if it, or the picture of the same name (.png), cannot be written.
+        Raises InputError if the path of --csv has another suffix than .csv, or if the file or the picture of the same
+        name (.png) cannot be written.
         """
         table = self.csv or self.out / f"{mechanism}_{table_kind}.csv"
         if self.csv is not None:

@@ -125,7 +125,7 @@ def _is_on_link(configuration: Configuration, body: str, *ends: Array) -> bool:
 def _draw_point_marks(configuration: Configuration, layout: Layout, body: str, colour_index: int) -> Iterator[Shape]:
     """Yield a small dot for each named point of a body that no joint, drive or force element uses.
 
-    `colour_index` is the index of the body's colour.
+    Points called head, tail, origin or com get none. `colour_index` is the index of the body's colour.
     """
     used_points = {end for part in configuration.source.parts for end in part.ends}
     for name in configuration.points:

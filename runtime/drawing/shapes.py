@@ -187,7 +187,10 @@ def compute_arrow_head(tip: Array, direction: Array, size: float) -> Array:
 
 
 def compute_bounding_box(shapes: Iterable[Shape]) -> tuple[Array, Array]:
-    """Return the lower left and upper right corner of the box that contains all shapes, (2,) each, in m."""
+    """Return the lower left and upper right corner of the box that contains all shapes, (2,) each, in m.
+
+    Raises ValueError without shapes.
+    """
     lows, highs = [], []
     for shape in shapes:
         if isinstance(shape, Disc):

@@ -141,7 +141,7 @@ def list_states(source: KernelSource) -> list[tuple[str, str]]:
 def compute_instantiation_token(source: KernelSource) -> str:
     """Return the instantiation token (FMI 3) that ties the library to its description.
 
-    It is a hash of mechanism, scene and generated C.
+    It is a hash of mechanism, scene and generated C: 32 hexadecimal digits in braces.
     """
     texts = [source.mechanism, source.scene, *(text for item in sorted(source.files.items()) for text in item)]
     return "{" + sha256("\0".join(texts).encode()).hexdigest()[:32] + "}"

@@ -134,7 +134,7 @@ class _GroundPoints:
         self.linkage, self.joint_names, self.name_by_position = linkage, joint_names, dict[Point, str]()
 
     def get_or_add_name(self, position: Point) -> str:
-        """Return the name of the ground point at a position; a new point is added to the linkage."""
+        """Return the name of the ground point at a position; a new point (O1, O2, …) is added to the linkage."""
         if position not in self.name_by_position:
             name = f"O{len(self.name_by_position) + 1}"
             while name in self.joint_names:

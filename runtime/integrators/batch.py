@@ -387,7 +387,10 @@ class Runs(StoredRuns):
             current[0] += status == RUN_ENDED
 
     def _build_error(self, i: int) -> GudgeonError:
-        """Build the error that ended run i in C, from its status and the values that C stored."""
+        """Build the error that ended run i in C, from its status and the values that C stored.
+
+        It is an AuditError if the run ended because a check of its audit exceeded the limit.
+        """
         if self.arrays["status"][i] == AUDITED:
             return build_audit_error(self.build_findings(i))
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "time_gain", "monitored_steps", "ended"

@@ -218,15 +218,16 @@ def make_empty_event_states(compiled: CompiledModel) -> NDArray[Any]:
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
     """Fetch and clear C's list of user events of a run, and return them with states (build_event_dtype).
 
-    Events at the start are left out. `run`: C's integrator; `times`: output times of the run. An index k beyond the
-    scene's n events means that event k − n is not a number from that time on.
+    The fields are the event's index, its time t (s), the state y, the discrete states (field "memory") and the contact
+    codes (field "state"). Events at the start are left out. `run`: C's integrator; `times`: output times of the run. An
+    index k beyond the scene's n events means that event k − n is not a number from that time on.
     """
-    joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
-    t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
+    n_joints, n_rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
+    t, event = np.zeros(n_rows), np.zeros(n_rows, dtype=np.intc)
     y, discrete_states = (
-        np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_discrete_states)
+        np.zeros((n_rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_discrete_states)
     )
-    state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
+    state = np.zeros((n_rows, max(n_joints, 1)), dtype=np.int8)
     arrays = (
         compiled.pointer(t),
         compiled.pointer(event, "int *"),
@@ -234,14 +235,15 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         compiled.pointer(discrete_states),
         compiled.pointer(state, "signed char *"),
     )
-    parts, count = [make_empty_event_states(compiled)], rows
-    while count == rows:
-        count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
-        part = np.zeros(count, dtype=parts[0].dtype)
-        part["event"], part["t"], part["y"] = event[:count], t[:count], y[:count]
-        part["memory"], part["state"] = discrete_states[:count, : compiled.n_discrete_states], state[:count, :joints]
-        parts.append(part)
-    fetched = np.concatenate(parts)
+    blocks, count = [make_empty_event_states(compiled)], n_rows
+    while count == n_rows:
+        count = compiled.lib.gudgeon_run_events(run, n_rows, *arrays)
+        block = np.zeros(count, dtype=blocks[0].dtype)
+        block["event"], block["t"], block["y"] = event[:count], t[:count], y[:count]
+        block["memory"] = discrete_states[:count, : compiled.n_discrete_states]
+        block["state"] = state[:count, :n_joints]
+        blocks.append(block)
+    fetched = np.concatenate(blocks)
     is_undefined = fetched["event"] >= len(compiled.source.events)
     return fetched[is_undefined | (fetched["t"] > times[0] + compute_time_resolution(times))]
 

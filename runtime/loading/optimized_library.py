@@ -130,8 +130,8 @@ class OptimizedLibrary:
 def make_optimized_library(request: str) -> None:
     """Compile the optimized library into the cache, with low priority; called in the other process.
 
-    `request`: JSON of cache folder, cache entry of the quick library and `portable`. One such process compiles at a
-    time. Errors are reported at the next start.
+    `request`: JSON of cache folder, cache entry of the unoptimized library and `portable`. Nothing is compiled if that
+    entry is incomplete. One such process compiles at a time. Errors are reported at the next start.
     """
     from filelock import FileLock
 

@@ -73,7 +73,7 @@ def evaluate(
     t: ArrayLike,
     q: ArrayLike,
     v: ArrayLike,
-    memory: ArrayLike,
+    discrete_states: ArrayLike,
     p: ArrayLike,
     poll_cancellation: Callable[[], object],
     field_names: Collection[str],
@@ -89,12 +89,10 @@ def evaluate(
         time = np.asarray(time + compute_rounding_distance(time))
     N = len(time)
     check = _check_matrix if N > FIRST_CHUNK_SAMPLES else _convert_matrix
-    discrete_states = check(memory, "memory", N, None)
-    if (
-        compiled.n_discrete_states or discrete_states.shape[1] > 1
-    ):  # in a scene without discrete states, one column is accepted too
-        check(discrete_states, "memory", N, compiled.n_discrete_states)
-    inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", discrete_states))
+    memory = check(discrete_states, "memory", N, None)
+    if compiled.n_discrete_states or memory.shape[1] > 1:  # without discrete states, one column is accepted too
+        check(memory, "memory", N, compiled.n_discrete_states)
+    inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", memory))
     evaluation, outputs = allocate_evaluation(compiled, N, field_names)
     failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST_CHUNK_SAMPLES
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))

@@ -76,8 +76,9 @@ def _compare_parameter_values(compiled: CompiledModel, stored_values: Sequence[f
 
 
 def _evaluate_library(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
-    """Return the values of the library's functions at a stored state by name: Evaluation fields, Φ, ν, γ and M.
+    """Return the values of the library's functions at a stored state by name.
 
+    They are the fields COMPARED_FIELDS of an Evaluation, the first two columns of `clearance`, Φ, ν, γ and M.
     state: {"t", "q", "v", "memory"}; p: parameter values.
     """
     t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])

@@ -106,8 +106,8 @@ def _measure_lengths(source: KernelSource, lengths: Array) -> tuple[float, bool]
 def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     """Return the norm's weights of coordinates, (n,): the diagonal `mass` of M, with a lower limit for inertias.
 
-    A point mass on a link has no moment of inertia. Its motion is regular, but M alone is not a norm for it. `mass` is
-    not changed.
+    The limit of each body is MIN_RELATIVE_INERTIA m S², with its mass m and the mechanism's size S. A point mass on a
+    link has no moment of inertia. Its motion is regular, but M alone is not a norm for it. `mass` is not changed.
     """
     weights = np.array(mass)
     lower_limit = MIN_RELATIVE_INERTIA * weights[1::3] * compute_size(source, p) ** 2
