@@ -31,8 +31,8 @@ from gudgeon.integrators.run_arrays import RunSizes, SingleRunArrays, make_run_a
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import (
     IMPACT_DTYPE,
+    MAX_ENVELOPE_ROWS,
     NO_CHANGE_POINTS,
-    TRACE_ROWS,
     Counts,
     Envelope,
     Trajectory,
@@ -202,10 +202,10 @@ class StoredRuns:
     def allocate_envelope(self) -> None:
         """Allocate the envelope of forces and paths, and register it with C, so that new runs record it for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
-        x["envelope"] = np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints)))
+        x["envelope"] = np.empty((self.n, MAX_ENVELOPE_ROWS, compute_envelope_width(joints)))
         self.struct.envelope, self.struct.envelope_capacity = (
             self.compiled.pointer(x["envelope"], is_written=True),
-            TRACE_ROWS,
+            MAX_ENVELOPE_ROWS,
         )
 
     def _join_contacts(self) -> None:

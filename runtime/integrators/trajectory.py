@@ -37,7 +37,7 @@ IMPACT_DTYPE = np.dtype(
 NO_CHANGE_POINTS = 0, float("nan")
 Progress: TypeAlias = Callable[[float, str], None]  # called with the fraction done, and what is being done
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, time in s
-TRACE_ROWS = 4096  # largest number of rows of an envelope; it is even
+MAX_ENVELOPE_ROWS = 4096  # largest number of rows of an envelope; it is even
 TRACED = {
     "F_low": ("N", "smallest force since the previous row"),
     "t_F_low": ("s", "time of F_low"),
