@@ -1,8 +1,8 @@
 """Compile the optimized library of a new scene in another process, while runs use an unoptimized one.
 
 The unoptimized library is compiled from the same texts. The compiler needs a third of the time; runs give the same bits
-and take up to three times as long. A separate process (`compile_optimized_library`), which may outlive this one, compiles
-the optimized library into the cache. Runs continue with it as soon as it exists.
+and take up to three times as long. A separate process (`compile_optimized_library`), which may outlive this one,
+compiles the optimized library into the cache. Runs continue with it as soon as it exists.
 
 The optimized library is awaited if that process cannot be started or has failed before, if the cache is temporary, or
 with GUDGEON_QUICK=0.
@@ -29,9 +29,7 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 if TYPE_CHECKING:
     import subprocess
 
-UNOPTIMIZED_KIND = (
-    "quick"  # of entries of the cache: the unoptimized library, and the source that the other process compiles
-)
+UNOPTIMIZED_KIND = "quick"  # of cache entries: the unoptimized library, and the source that the other process compiles
 SOURCE = "source.json"
 # program of the other process
 PROGRAM = (
