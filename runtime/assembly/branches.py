@@ -74,7 +74,7 @@ def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> lis
     spread = np.where(problem.is_angle, np.pi, problem.size)
     for _ in range(MAX_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
-        x[problem.set_index] = problem.set
+        x[problem.set_indices] = problem.set_values
         x = problem.solve_newton(problem.determine_angles(x))
         new = (
             problem.is_closed(x)
@@ -103,10 +103,10 @@ def compute_guess_distance(problem: AssemblyProblem, q: Array, other_q: Array) -
     """
     displacements = [
         problem.compute_point_error(q, point, np.zeros(2)) - problem.compute_point_error(other_q, point, np.zeros(2))
-        for point, _ in problem.points
+        for point, _ in problem.guessed_points
     ]
     distances = [float(np.linalg.norm(displacement)) / problem.size for displacement in displacements]
-    return max([*distances, *_compute_differences(problem, q, other_q)[problem.guessed].tolist()], default=0.0)
+    return max([*distances, *_compute_differences(problem, q, other_q)[problem.guessed_indices].tolist()], default=0.0)
 
 
 def _are_same_configuration(problem: AssemblyProblem, q: Array, other_q: Array) -> bool:
@@ -154,5 +154,5 @@ def _find_largest_guess_error(problem: AssemblyProblem, q: Array) -> tuple[str, 
 
 def _compute_guess_differences(problem: AssemblyProblem, q: Array) -> dict[str, float]:
     """Return the differences (rad, within half a turn) of the guessed angles from the file's guesses, by name."""
-    angles = [(name, k) for name, k in zip(problem.guess, problem.guessed, strict=True) if problem.is_angle[k]]
+    angles = [(name, k) for name, k in zip(problem.guess, problem.guessed_indices, strict=True) if problem.is_angle[k]]
     return {name: (float(q[k]) - problem.guess[name] + np.pi) % (2.0 * np.pi) - np.pi for name, k in angles}

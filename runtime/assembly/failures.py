@@ -96,7 +96,7 @@ def make_closure_error(problem: AssemblyProblem, q: Array) -> AssemblyError:
     if more := int((scaled_residuals >= max(CLOSURE_TOL, 1e-6 * scaled_residuals.max())).sum()) - len(worst):
         rows += f" and {more} more with smaller residuals,"
     owners = ", ".join(dict.fromkeys(problem.owners[k] for k in worst if problem.owners[k] != "start"))
-    sets = "start.set, " if len(problem.set_index) else ""
+    sets = "start.set, " if len(problem.set_indices) else ""
     lengths = _describe_unit_mistake(problem) or _describe_wrong_lengths(problem, q)
     return AssemblyError(
         f"the start cannot be assembled: constraint equations {rows} are violated (joints"
