@@ -101,8 +101,8 @@ def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> 
     """Return the times of simulate with known and with new values, of a run of a batch and beyond C in it, of a
     prepared run and of C in it, and of a step and of C in it, in µs.
     """
-    address = name if name in simulation.source.slot_index else f"parameters.{name}"
-    default = simulation.source.slots[simulation.source.slot_index[address]].default
+    address = name if name in simulation.source.parameter_indices else f"parameters.{name}"
+    default = simulation.source.parameters[simulation.source.parameter_indices[address]].default
     values = [np.array([default * (1.0 + 1e-6 * k)]) for k in range(VALUES)]
     prepared, stepper = simulation.prepare(name, series, T_END, output=1), simulation.stepper(name, series)
 

@@ -143,7 +143,7 @@ def timed(law: Law, folder: Path) -> tuple[float, float]:
     call, names = call_of(program, law)
     found = []
     for what, results in ((call, len(law.results)), ("out[0] = at[0];", 1)):
-        (folder / "time.c").write_text(harness(what, names, results, len(source.slots)), encoding="utf-8")
+        (folder / "time.c").write_text(harness(what, names, results, len(source.parameters)), encoding="utf-8")
         message = [
             *find_compiler(),
             *build_flags(portable=False),

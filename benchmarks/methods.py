@@ -141,7 +141,7 @@ def main() -> None:
         variants = {"auto": simulation}
         for method in methods:
             try:
-                if method not in STAGED or simulation.source.stages:
+                if method not in STAGED or simulation.source.has_stage_matrices:
                     variants[method] = simulation.of_method(method)
             except GudgeonError:
                 pass

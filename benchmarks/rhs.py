@@ -56,7 +56,7 @@ class Work:
     @cached_property
     def tree(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the state in tree coordinates: s and its rate."""
-        model, n = self.simulation.compiled, len(self.simulation.source.tree)
+        model, n = self.simulation.compiled, len(self.simulation.source.tree_coordinates)
         s, rate = np.zeros(n + 1), np.zeros(n + 1)
         model.lib.gudgeon_reduce(self.t, *map(model.pointer, (self.q, self.v, self.simulation.p, s, rate)))
         return s, rate
@@ -117,8 +117,8 @@ def result(work: Work) -> Result:
         raise RuntimeError(f"{work.name}: a pivot vanished")
     full = model.rhs(t, work.state, p, work.memory)[len(work.q) : 2 * len(work.q)]
     source = work.simulation.source
-    angles = [k for k, name in enumerate(source.tree) if f"{name}.theta" in source.coordinates]
-    same = full[[source.coordinates.index(f"{source.tree[k]}.theta") for k in angles]]
+    angles = [k for k, name in enumerate(source.tree_coordinates) if f"{name}.theta" in source.coordinates]
+    same = full[[source.coordinates.index(f"{source.tree_coordinates[k]}.theta") for k in angles]]
     from_peer = math.nan
     if work.peer is not None:
         stored = np.nan_to_num(work.memory)
@@ -254,7 +254,7 @@ def show_results(all_works: list[Work]) -> None:
     """Print what was computed, so that a NaN is not timed unnoticed."""
     print("\nresults: accelerations in tree coordinates; |Φ|, |Φ̇|; reduced off full, full off peer (shares)")
     for work in all_works:
-        found, names = result(work), work.simulation.source.tree
+        found, names = result(work), work.simulation.source.tree_coordinates
         some = ", ".join(f"{n} {x:.9g}" for n, x in zip(names[:SHOWN], found.accelerations, strict=False))
         peer = "" if math.isnan(found.from_peer) else f", {found.from_peer:.1e}"
         print(

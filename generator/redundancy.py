@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import scale_rows
+from gudgeon.assembly.linkage import normalize_jacobian_rows
 from gudgeon.assembly.mobility import check_degrees_of_freedom, find_mobility
 from gudgeon.assembly.rank import (
     N_NEARBY_CONFIGURATIONS,
@@ -46,7 +46,7 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     try:
         with np.errstate(all="ignore"):
             q = search_start(linkage, linkage.p).q
-            start = scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
+            start = normalize_jacobian_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             configurations_near_start = find_nearby_configurations(
                 linkage,
                 linkage.p,
@@ -55,7 +55,9 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
                 N_NEARBY_CONFIGURATIONS if compute_rank(start) < len(rows_of_scene) else 0,
             )
             matrices = [
-                scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, configuration, linkage.p)[rows_of_scene])
+                normalize_jacobian_rows(
+                    linkage, linkage.p, linkage.closed_phi_q(0.0, configuration, linkage.p)[rows_of_scene]
+                )
                 for configuration in configurations_near_start
             ]
         ranks = [compute_rank(matrix) for matrix in matrices]
@@ -98,7 +100,7 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
         )
         has_mass = linkage.mass(linkage.p) > 0.0
         matrices = [
-            scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
+            normalize_jacobian_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             for q in configurations_near_start
         ]
         motions_of_min_mass = [_find_motion_of_min_mass(matrix, has_mass) for matrix in matrices]

@@ -222,7 +222,7 @@ def slopes() -> Iterable[Row]:
     for scene, seed in itertools.product(("dry", "lubricated"), range(3)):
         subject = shipped_subject(PRESS, scene)
         y, memory = test_jacobian.near_start(PRESS, scene, subject, seed)
-        memory = memory[: max(subject.library.n_memory, 1)]
+        memory = memory[: max(subject.library.n_discrete_states, 1)]
         J, _ = subject.library.jacobian(0.1 + seed, y, subject.p, memory)
         want, _ = subject.exact.jacobian(0.1 + seed, y, memory)
         n = subject.n
@@ -261,15 +261,15 @@ def reduction() -> Iterable[Row]:
         simulation = gudgeon.load(name, scene=scene)
         library, start = simulation.compiled, simulation.start()
         reduced = Reduced(library, simulation.p)
-        index = [library.source.coordinates.index(f"{body}.theta") for body in library.source.tree]
+        index = [library.source.coordinates.index(f"{body}.theta") for body in library.source.tree_coordinates]
         s, rate = reduced.reduce(0.0, start.q, start.v)
         for seed in range(4):
             rng = np.random.default_rng(seed)
             near = s + rng.normal(0.0, 1e-3 * seed, len(s))
             here = reduced.close(0.0, near, rate + rng.normal(0.0, 0.1 * seed, len(s)))
-            memory = np.full(max(library.n_memory, 1), math.nan if seed % 2 else 0.02)
+            memory = np.full(max(library.n_discrete_states, 1), math.nan if seed % 2 else 0.02)
             q, v = reduced.expand(0.0, *here)
-            rows = memory[None, : library.n_memory]
+            rows = memory[None, : library.n_discrete_states]
             want = library.evaluate([0.0], q[None], v[None], rows, simulation.p).a[0, index]
             found = max(found, worst(reduced.accelerations(0.0, *here, memory)[0], want))
     yield (

@@ -23,10 +23,10 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import (
     BodyInfo,
     DriveInfo,
+    EquationInfo,
     JointInfo,
     KernelSource,
     PointInfo,
-    RowInfo,
     RuntimeParameter,
 )
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
@@ -91,10 +91,10 @@ def make_source(scene: str) -> KernelSource:
     ideal_joint = JointInfo("A", "revolute", 0, 1, "S9.origin", (3, 4))
     guide = JointInfo("guide", "translational", -1, 1, "S9.origin", (1, 2))
     rows = [
-        RowInfo("crank.angle", "crank", "drive", "rad"),
-        *(RowInfo(f"guide.{name}", "guide", "joint", unit) for name, unit in (("offset", "m"), ("angle", "rad"))),
+        EquationInfo("crank.angle", "crank", "drive", "rad"),
+        *(EquationInfo(f"guide.{name}", "guide", "joint", unit) for name, unit in (("offset", "m"), ("angle", "rad"))),
     ]
-    rows += [] if play else [RowInfo("A.x", "A", "joint", "m"), RowInfo("A.y", "A", "joint", "m")]
+    rows += [] if play else [EquationInfo("A.x", "A", "joint", "m"), EquationInfo("A.y", "A", "joint", "m")]
     return KernelSource(
         mechanism="slider",
         scene=scene,
@@ -111,12 +111,12 @@ def make_source(scene: str) -> KernelSource:
             PointInfo("S9.origin", 1, -1, -1),
             PointInfo("ground.O1", -1, 1, -1),
         ),
-        rows=tuple(rows),
+        equations=tuple(rows),
         joints=(guide,) if play else (guide, ideal_joint),
         drives=(DriveInfo("crank", 0, "rad"),),
         clearances=(ClearanceInfo("A", 0, 1, "S9.origin", True, False, 2, {"K": 4}),) if play else (),
         series=(),
-        start_rows=(),
+        start_equations=(),
         start_guess=(),
         start_set=(),
         start_rates=(),
@@ -125,7 +125,7 @@ def make_source(scene: str) -> KernelSource:
         start_pivots=(),
         rate_jumps=(),
         indeterminate=(),
-        slots=tuple(slots),
+        parameters=tuple(slots),
         derived=("half_L1", "A.K"),
         conditions=(),
         outputs={"lift": ["+", "S9.y", RADIUS], "speed": ["*", "omega", ["/", "bodies.L1.length", 2.0]]},
@@ -182,7 +182,7 @@ class FakeCompiled:
             clearance[:, k, 2], clearance[:, k, 7], clearance[:, k, 8] = force, waves[:, 0], waves[:, 1]
         return FakeEvaluation(
             np.zeros_like(q),
-            waves[:, : len(s.rows)],
+            waves[:, : len(s.equations)],
             waves[:, : 3 * len(s.joints)].reshape(n, len(s.joints), 3),
             waves[:, : len(s.drives)],
             clearance,

@@ -69,7 +69,7 @@ def _run(simulation: gudgeon.Simulation, method: str) -> Arrays:
 
 def _batch(simulation: gudgeon.Simulation, method: str) -> Arrays:
     """The first of the scene's numbers that is not zero, and two values beside it."""
-    slot = next(slot for slot in simulation.compiled.source.slots if slot.default)
+    slot = next(slot for slot in simulation.compiled.source.parameters if slot.default)
     runs = simulation.simulate_many(
         {slot.address: slot.default * np.array([1.0, 1.001, 1.002])}, **_options(simulation, method)
     )

@@ -87,8 +87,8 @@ def install() -> None:
         return (str(TCC_OR_CC), *found) if _is_plain() and len(found) == 1 and "CC" not in os.environ else found
 
     @wraps(flags)
-    def decided_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
-        found = flags(portable, command, quick)
+    def decided_flags(portable: bool, command: tuple[str, ...] = (), unoptimized: bool = False) -> tuple[str, ...]:
+        found = flags(portable, command, unoptimized)
         return plain(found) if _is_plain() else found
 
     @wraps(load_bytes)

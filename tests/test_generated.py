@@ -14,7 +14,7 @@ import pytest
 
 from gudgeon.generator.targets.c.readme import READABLE
 from gudgeon.loading.generated_scenes import ARCHIVE, read_archive, read_scenes, write_scenes
-from gudgeon.loading.shipped import list_generated, read_committed_source
+from gudgeon.loading.shipped import list_generated_scenes, read_committed_source
 
 ROOT = Path(__file__).parents[1]
 MAX_LINES = 20_000
@@ -67,7 +67,7 @@ def test_files_are_for_readers() -> None:
         assert len(set(texts)) == len(texts)
 
 
-@pytest.mark.parametrize("mechanism", list_generated())
+@pytest.mark.parametrize("mechanism", list_generated_scenes())
 def test_every_shipped_mechanism_compiles_without_a_derivation(mechanism: str, tmp_path: Path) -> None:
     data = (ROOT / "mechanisms" / f"{mechanism}.yaml").read_bytes()
     sources = read_scenes(ROOT / "generated" / mechanism)

@@ -42,5 +42,5 @@ def test_its_figures_are_those_of_the_scene() -> None:
     simulation = gudgeon.load("slider_crank", "dry")
     operations = simulation.source.operations
     assert f"{operations['dynamics']} operations in `dynamics` and {operations['reduced_dynamics']} in" in PAGE
-    stiffness = simulation.p[len(simulation.source.slots) + simulation.source.derived.index("dry_pin_K")]
+    stiffness = simulation.p[len(simulation.source.parameters) + simulation.source.derived.index("dry_pin_K")]
     assert f"{stiffness / 1e10:.3f}·10¹⁰ N/m^1.5" in PAGE

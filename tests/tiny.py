@@ -25,7 +25,7 @@ def tiny(factor: int = 2, **changes: object) -> KernelSource:
         "simulate": {},
         "operations": {},
         "gravity": False,
-        "story": ReductionLog(),
+        "reduction_log": ReductionLog(),
     }
     for name in KernelSource.__dataclass_fields__:
         fields.setdefault(name, ())

@@ -1,7 +1,7 @@
 """Find the assemblies of a linkage: its closed configurations (assembly modes), each with a guess that selects it.
 
 Newton's method starts from many random angles; different results are collected until MAX_IDLE_TRIES starts find no new
-one. Coordinates that can move are held at their values at the start.
+one. Independent coordinates (those of the degrees of freedom) are held at their values at the start.
 """
 
 from __future__ import annotations
@@ -35,16 +35,17 @@ class Assembly:
 
 
 def find_assemblies(
-    linkage: Linkage, p: Array, q: Array, movable_coordinates: Sequence[str], t: float = 0.0
+    linkage: Linkage, p: Array, q: Array, held_coordinates: Sequence[str], t: float = 0.0
 ) -> list[Assembly]:
     """Find assemblies of a linkage by Newton's method from random starts; return them, that of the start q (n,) first.
 
-    movable_coordinates: names of coordinates that can move; they are held at their values in q, unless the file sets
-    them. t: time of the drives, s. Each assembly has a guess that selects it, and the error of the file's guess there.
+    held_coordinates: names of the coordinates of the degrees of freedom. They are held at their values in q; the others
+    are solved for from random starts. Coordinates that the file sets have the file's value. t: time of the drives, s.
+    Each assembly has a guess that selects it, and the error of the file's guess there.
     """
     index_of = {name: k for k, name in enumerate(linkage.source.coordinates)}
-    free = [name for name in movable_coordinates if name not in linkage.source.start_set]
-    problem = AssemblyProblem(linkage, p, t, {name: float(q[index_of[name]]) for name in free})
+    not_set = [name for name in held_coordinates if name not in linkage.source.start_set]
+    problem = AssemblyProblem(linkage, p, t, {name: float(q[index_of[name]]) for name in not_set})
     with np.errstate(all="ignore"):
         configurations = _find_distinct_configurations(problem, q)
         names = [name for name in linkage.source.coordinates if problem.is_angle[index_of[name]]]
@@ -73,7 +74,7 @@ def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> lis
     spread = np.where(problem.is_angle, np.pi, problem.size)
     for _ in range(MAX_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
-        x[problem.set_index] = problem.set
+        x[problem.set_indices] = problem.set_values
         x = problem.solve_newton(problem.determine_angles(x))
         new = (
             problem.is_closed(x)
@@ -86,31 +87,31 @@ def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> lis
     return configurations
 
 
-def _compute_differences(problem: AssemblyProblem, x: Array, y: Array) -> Array:
-    """Return the magnitudes (n,) of the differences of two configurations.
+def _compute_differences(problem: AssemblyProblem, q: Array, other_q: Array) -> Array:
+    """Return the magnitudes (n,) of the differences of the coordinates of two configurations (n,).
 
     Angles are in rad within half a turn, lengths relative to the mechanism's size.
     """
-    difference = x - y
+    difference = q - other_q
     return np.abs(np.where(problem.is_angle, (difference + np.pi) % (2.0 * np.pi) - np.pi, difference / problem.size))
 
 
-def compute_guess_distance(problem: AssemblyProblem, x: Array, y: Array) -> float:
+def compute_guess_distance(problem: AssemblyProblem, q: Array, other_q: Array) -> float:
     """Return the largest difference of two configurations in guessed coordinates and points; 0 without guesses.
 
     Angles are in rad, lengths relative to the mechanism's size.
     """
-    points = [
-        problem.compute_point_error(x, point, np.zeros(2)) - problem.compute_point_error(y, point, np.zeros(2))
-        for point, _ in problem.points
+    displacements = [
+        problem.compute_point_error(q, point, np.zeros(2)) - problem.compute_point_error(other_q, point, np.zeros(2))
+        for point, _ in problem.guessed_points
     ]
-    far = [float(np.linalg.norm(away)) / problem.size for away in points]
-    return max([*far, *_compute_differences(problem, x, y)[problem.guessed].tolist()], default=0.0)
+    distances = [float(np.linalg.norm(displacement)) / problem.size for displacement in displacements]
+    return max([*distances, *_compute_differences(problem, q, other_q)[problem.guessed_indices].tolist()], default=0.0)
 
 
-def _are_same_configuration(problem: AssemblyProblem, x: Array, y: Array) -> bool:
+def _are_same_configuration(problem: AssemblyProblem, q: Array, other_q: Array) -> bool:
     """Return whether two configurations differ by less than CONFIGURATION_TOL in every coordinate."""
-    return bool(_compute_differences(problem, x, y).max(initial=0.0) < CONFIGURATION_TOL)
+    return bool(_compute_differences(problem, q, other_q).max(initial=0.0) < CONFIGURATION_TOL)
 
 
 def _select_distinguishing_coordinates(
@@ -135,23 +136,23 @@ def _select_distinguishing_coordinates(
     return selected
 
 
-def _reduce_coordinate(problem: AssemblyProblem, x: Array, index: int) -> float:
-    """Return coordinate k of a configuration; an angle is reduced to [−π, π)."""
-    value = float(x[index])
+def _reduce_coordinate(problem: AssemblyProblem, q: Array, index: int) -> float:
+    """Return the coordinate q[index] of a configuration; an angle is reduced to [−π, π)."""
+    value = float(q[index])
     return float((value + np.pi) % (2.0 * np.pi) - np.pi) if problem.is_angle[index] else value
 
 
-def _find_largest_guess_error(problem: AssemblyProblem, x: Array) -> tuple[str, float]:
+def _find_largest_guess_error(problem: AssemblyProblem, q: Array) -> tuple[str, float]:
     """Return the name of the guessed angle that is furthest from its guess, and the difference (rad, positive).
 
-    It is ("", 0) without guessed angles.
+    It is ("", 0) without guessed angles. Guessed lengths and points do not count.
     """
-    away = {name: abs(value) for name, value in _compute_guess_differences(problem, x).items()}
-    name = max(away, key=lambda key: away[key], default="")
-    return name, away.get(name, 0.0)
+    errors = {name: abs(difference) for name, difference in _compute_guess_differences(problem, q).items()}
+    name = max(errors, key=lambda key: errors[key], default="")
+    return name, errors.get(name, 0.0)
 
 
-def _compute_guess_differences(problem: AssemblyProblem, x: Array) -> dict[str, float]:
+def _compute_guess_differences(problem: AssemblyProblem, q: Array) -> dict[str, float]:
     """Return the differences (rad, within half a turn) of the guessed angles from the file's guesses, by name."""
-    angles = [(name, k) for name, k in zip(problem.guess, problem.guessed, strict=True) if problem.is_angle[k]]
-    return {name: (float(x[k]) - problem.guess[name] + np.pi) % (2.0 * np.pi) - np.pi for name, k in angles}
+    angles = [(name, k) for name, k in zip(problem.guess, problem.guessed_indices, strict=True) if problem.is_angle[k]]
+    return {name: (float(q[k]) - problem.guess[name] + np.pi) % (2.0 * np.pi) - np.pi for name, k in angles}

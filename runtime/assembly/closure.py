@@ -42,40 +42,46 @@ class AssemblyProblem:
         source = linkage.source
         self.linkage, self.p, self.t = linkage, p, t
         self.coordinate_index = {name: k for k, name in enumerate(source.coordinates)}
-        guess, fixed, rates = linkage.start_values(p)
-        fixed, self.start_eccentricities = fixed[: len(source.start_set)], fixed[len(source.start_set) :]
+        guess, file_values, rates = linkage.start_values(p)
+        file_values, self.start_eccentricities = (
+            file_values[: len(source.start_set)],
+            file_values[len(source.start_set) :],
+        )
         self.rates, self.start_eccentricity_rates = rates[: len(source.start_rates)], rates[len(source.start_rates) :]
-        self.set = np.array([*fixed, *held_values.values()])
-        held = [*source.start_set, *held_values]
-        self.set_index = [self.coordinate_index[name] for name in held]
-        self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in held]
-        self.eccentricity_rows = [self.names.index(name) for name in source.start_apart]
-        self.owners = [row.owner for row in source.start_rows] + ["start"] * len(held)
+        self.set_values = np.array([*file_values, *held_values.values()])
+        set_names = [*source.start_set, *held_values]
+        self.set_indices = [self.coordinate_index[name] for name in set_names]
+        self.names = [row.name for row in source.start_equations] + [f"set {name}" for name in set_names]
+        self.eccentricity_rows = [self.names.index(name) for name in source.eccentricity_equations]
+        self.owners = [row.owner for row in source.start_equations] + ["start"] * len(set_names)
         self.is_angle = find_angles(source)
         self.size = self.max_distance = compute_mechanism_size(linkage, p)
-        self.units = [row.unit for row in source.start_rows]
-        self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
+        self.units = [row.unit for row in source.start_equations]
+        self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_indices]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
         self.weight = np.where(self.is_angle, ANGLE_WEIGHT, POSITION_WEIGHT / self.size)
         guess_values = dict(zip(source.start_guess, guess.tolist(), strict=True))
         self.guess = {name: value for name, value in guess_values.items() if name in self.coordinate_index}
-        self.guessed = [self.coordinate_index[name] for name in self.guess]
-        self.points = [
+        self.guessed_indices = [self.coordinate_index[name] for name in self.guess]
+        self.guessed_points = [
             (point, np.array([guess_values[f"{point.name}.x"], guess_values[f"{point.name}.y"]]))
             for point in source.points
             if f"{point.name}.x" in guess_values
         ]
         self.first_guess = np.zeros(len(self.coordinate_index))  # set by build_first_guess
-        self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESS_WEIGHT, GUESS_WEIGHT / self.size)
+        self.weight[self.guessed_indices] = np.where(
+            self.is_angle[self.guessed_indices], GUESS_WEIGHT, GUESS_WEIGHT / self.size
+        )
 
     def compute_residual(self, q: Array, p: Array | None = None) -> Array:
         """Return the residuals of all equations (constraint equations, then set coordinates) in m or rad.
 
+        Joints with play are closed, except those with an eccentricity in the file's start: they are held open by it.
         p: other parameter values than those of the problem, or None.
         """
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
         phi[self.eccentricity_rows] += self.start_eccentricities  # Φ of these joints is −e
-        return np.concatenate([phi, q[self.set_index] - self.set])
+        return np.concatenate([phi, q[self.set_indices] - self.set_values])
 
     def compute_jacobian(self, q: Array, p: Array | None = None) -> Array:
         """Return the Jacobian of the residuals of `compute_residual` with respect to q, (m, n).
@@ -83,8 +89,8 @@ class AssemblyProblem:
         Its rows are those of the constraint equations, then one unit row for each coordinate of `start.set`. p: other
         parameter values than those of the problem, or None.
         """
-        extra = np.zeros((len(self.set_index), len(q)))
-        extra[np.arange(len(self.set_index)), self.set_index] = 1.0
+        extra = np.zeros((len(self.set_indices), len(q)))
+        extra[np.arange(len(self.set_indices)), self.set_indices] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
 
     def find_least_squares_configuration(self, q: Array, p: Array) -> Array:
@@ -122,17 +128,18 @@ class AssemblyProblem:
         return step
 
     def build_first_guess(self) -> Array:
-        """Return the guessed configuration: guessed and held values, angles that equations in angles alone determine.
+        """Return the guessed configuration (n,), from which Newton's method starts.
 
-        Other coordinates are 0. With guessed points, the configuration is fitted to them. Sets `first_guess` and
-        `max_distance`.
+        Guessed coordinates and those of `start.set` have the file's values. Angles follow where equations that contain
+        angles alone determine them. Other coordinates are 0. With guessed points, the configuration is fitted to them.
+        Sets `first_guess` (before the fit) and `max_distance`.
         """
         q = np.zeros(len(self.coordinate_index))
-        q[self.guessed] = list(self.guess.values())
-        q[self.set_index] = self.set
+        q[self.guessed_indices] = list(self.guess.values())
+        q[self.set_indices] = self.set_values
         self.first_guess = q = self.determine_angles(q)
         self.max_distance = self._compute_max_distance(q)
-        return self._fit_guessed_points(q) if self.points else q
+        return self._fit_guessed_points(q) if self.guessed_points else q
 
     def find_nearest_configuration(self) -> tuple[Array, bool]:
         """Return the closed configuration nearest to the guess and True; or that of least residual and False.
@@ -182,9 +189,9 @@ class AssemblyProblem:
         if self._compute_relative_guess_error(closed_configuration) < MIN_MIRRORED_ERROR:
             return closed_configuration
         beyond, mixed = 2.0 * guess - closed_configuration, closed_configuration.copy()
-        mixed[self.guessed] = beyond[self.guessed]
+        mixed[self.guessed_indices] = beyond[self.guessed_indices]
         for mirrored in (mixed, beyond):
-            mirrored[self.set_index] = self.set
+            mirrored[self.set_indices] = self.set_values
             other = self.solve_newton(self.determine_angles(mirrored))
             if not self._is_assembly(other):
                 continue
@@ -198,27 +205,36 @@ class AssemblyProblem:
 
         With guessed points only guessed coordinates count.
         """
-        off = [self.compute_point_error(q, point, target) * (GUESS_WEIGHT / self.size) for point, target in self.points]
-        free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
-        return float(np.linalg.norm(np.concatenate([(q - self.first_guess) * self.weight * free, *off])))
+        point_errors = [
+            self.compute_point_error(q, point, target) * (GUESS_WEIGHT / self.size)
+            for point, target in self.guessed_points
+        ]
+        is_counted = np.where(
+            np.isin(np.arange(len(q)), self.guessed_indices), 1.0, 0.0 if self.guessed_points else 1.0
+        )
+        return float(np.linalg.norm(np.concatenate([(q - self.first_guess) * self.weight * is_counted, *point_errors])))
 
     def compute_point_error(self, q: Array, point: PointInfo, target: Array) -> Array:
         """Return the vector (2,) in m from the guessed position `target` of a point to its position at q."""
         return compute_point_position(self.linkage.source, self.p, q, point) - target
 
     def _fit_guessed_points(self, q: Array) -> Array:
-        """Return the least-squares fit of the equations, guessed coordinates and guessed points, found from q."""
-        held = np.diag(self.weight)[self.guessed]
+        """Return the configuration (n,) of least squared residuals, found from q by Levenberg–Marquardt.
+
+        Residuals are those of the equations, and the differences from q in guessed coordinates and from the file's
+        positions in guessed points.
+        """
+        guess_rows = np.diag(self.weight)[self.guessed_indices]
 
         def compute_residuals(x: Array) -> Array:
             """Return the residuals of equations, guessed coordinates and guessed points."""
-            off = [self.compute_point_error(x, point, target) / self.size for point, target in self.points]
-            return np.concatenate([self.compute_residual(x) / self.row_scale, held @ (x - q), *off])
+            off = [self.compute_point_error(x, point, target) / self.size for point, target in self.guessed_points]
+            return np.concatenate([self.compute_residual(x) / self.row_scale, guess_rows @ (x - q), *off])
 
         def compute_jacobian(x: Array) -> Array:
             """Return the Jacobian of these residuals."""
             rows = self.compute_jacobian(x) / self.row_scale[:, None]
-            return np.concatenate([rows, held, self._compute_guessed_points_jacobian(x) / self.size])
+            return np.concatenate([rows, guess_rows, self._compute_guessed_points_jacobian(x) / self.size])
 
         return self._minimize_residual(q, compute_residuals, compute_jacobian)
 
@@ -252,9 +268,9 @@ class AssemblyProblem:
         return q
 
     def _compute_guessed_points_jacobian(self, q: Array) -> Array:
-        """Return the Jacobian of the positions of the guessed points with respect to q, (2 · points, n)."""
-        J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
-        for k, (point, _) in enumerate(self.points):
+        """Return the Jacobian of the positions (x, y) of the guessed points with respect to q, (2 · points, n)."""
+        J, source = np.zeros((2 * len(self.guessed_points), len(q))), self.linkage.source
+        for k, (point, _) in enumerate(self.guessed_points):
             i = source.bodies[point.body].index
             arm = compute_point_position(source, self.p, q, point) - q[i : i + 2]
             J[2 * k, i], J[2 * k, i + 2], J[2 * k + 1, i + 1], J[2 * k + 1, i + 2] = 1.0, -arm[1], 1.0, arm[0]
@@ -262,8 +278,8 @@ class AssemblyProblem:
 
     def _compute_max_distance(self, guess: Array) -> float:
         """Return the largest length (m) in the residuals and positions of the guess; at least the mechanism's size."""
-        requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_rows)]
-        lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
+        requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_equations)]
+        lengths = [row.unit == "m" for row in self.linkage.source.start_equations]
         return float(
             max(self.size, requested[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0))
         )
@@ -286,12 +302,13 @@ class AssemblyProblem:
         The limits are MAX_GUESS_ERROR_RAD for angles, and MIN_DIFFERENCE of the mechanism's size for lengths (for
         positions of the distance from the origin, if larger). It is 0 without guesses.
         """
-        differences = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.first_guess, 0.0)
+        differences = np.where(np.isin(np.arange(len(q)), self.guessed_indices), q - self.first_guess, 0.0)
         position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(
             self.size, np.hypot(self.first_guess[0::3], self.first_guess[1::3])
         )
         point_errors = [
-            np.linalg.norm(self.compute_point_error(q, *point)) / (MIN_DIFFERENCE * self.size) for point in self.points
+            np.linalg.norm(self.compute_point_error(q, *point)) / (MIN_DIFFERENCE * self.size)
+            for point in self.guessed_points
         ]
         return float(
             max(
@@ -310,7 +327,7 @@ class AssemblyProblem:
         """
         rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
-        spread[self.guessed] *= angle_range / np.pi
+        spread[self.guessed_indices] *= angle_range / np.pi
         body_axes = np.exp(
             1j * np.where(spread[0::3] == spread[1::3], guess[2::3], 0.0)
         )  # deviations of positions are in the axes of their body
@@ -322,7 +339,7 @@ class AssemblyProblem:
                 q[0::3] += position_steps.real
                 q[1::3] += position_steps.imag
                 q[2::3] += mirror * deviations[2::3]
-                q[self.set_index] = self.set
+                q[self.set_indices] = self.set_values
                 yield self.determine_angles(q)
 
     def unwind_angles(self, q: Array) -> Array:
@@ -372,7 +389,11 @@ class AssemblyProblem:
         return q
 
     def determine_angles(self, q: Array) -> Array:
-        """Return a copy of q with the angles that drives and sliders alone determine, by one Newton step."""
+        """Return a copy of q in which the equations that contain angles alone are solved for the angles.
+
+        These are equations of drives and sliders. They are linear in the angles: one Newton step of least weighted norm
+        solves them. Without such equations the copy is equal to q.
+        """
         rows = np.abs(self.compute_jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
         matrix = self.compute_jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()

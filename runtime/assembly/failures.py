@@ -39,13 +39,15 @@ def make_velocity_error(problem: AssemblyProblem, matrix: Array, residuals: Arra
     source = problem.linkage.source
     if mass_message := describe_mass_ratio(source, problem.linkage.mass(problem.p)):
         return AssemblyError(mass_message)
-    rows = [row.name for row in source.start_rows] + list(source.start_rates)
-    prescribed = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
+    rows = [row.name for row in source.start_equations] + list(source.start_rates)
+    prescribed = {row.name for row in source.start_equations if row.kind == "drive"} | set(source.start_rates)
     dependent = [name for name, maximum in zip(rows, compute_left_null_maxima(matrix), strict=True) if maximum > 1e-6]
     dependent_motions = [name for name in dependent if name in prescribed]
     rates = [name for name in dependent if name in source.start_rates]
     play = {joint.joint: joint.is_corner for joint in source.clearances}
-    closed_joints = dict.fromkeys(row.owner for row in source.start_rows if row.name in dependent and row.owner in play)
+    closed_joints = dict.fromkeys(
+        row.owner for row in source.start_equations if row.name in dependent and row.owner in play
+    )
     if rates and closed_joints:
         first = next(iter(closed_joints))
         key = "offset_rate" if play[first] else "rate"
@@ -56,7 +58,7 @@ def make_velocity_error(problem: AssemblyProblem, matrix: Array, residuals: Arra
             " or start from a State: simulate(start=...)"
         )
     if len(dependent_motions) > 1:
-        owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))
+        owners = dict(zip(rows, [row.owner for row in source.start_equations], strict=False))
         joints = dict.fromkeys(owners[name] for name in dependent if name not in prescribed)
         among = f" (connected by joints {', '.join(joints)})" if joints else ""
         return AssemblyError(
@@ -94,7 +96,7 @@ def make_closure_error(problem: AssemblyProblem, q: Array) -> AssemblyError:
     if more := int((scaled_residuals >= max(CLOSURE_TOL, 1e-6 * scaled_residuals.max())).sum()) - len(worst):
         rows += f" and {more} more with smaller residuals,"
     owners = ", ".join(dict.fromkeys(problem.owners[k] for k in worst if problem.owners[k] != "start"))
-    sets = "start.set, " if len(problem.set_index) else ""
+    sets = "start.set, " if len(problem.set_indices) else ""
     lengths = _describe_unit_mistake(problem) or _describe_wrong_lengths(problem, q)
     return AssemblyError(
         f"the start cannot be assembled: constraint equations {rows} are violated (joints"
@@ -117,7 +119,7 @@ def _format_open_equation(problem: AssemblyProblem, q: Array, index: int) -> str
 def _describe_wrong_lengths(problem: AssemblyProblem, q: Array) -> str:
     """Return a text on up to three links, of which a change of one would close the linkage; "" if there is none.
 
-    Nothing is searched for more than MAX_SEARCHED_COORDINATES coordinates.
+    "" also if the linkage has more than MAX_SEARCHED_COORDINATES coordinates: no change is searched then.
     """
     if problem.linkage.n > MAX_SEARCHED_COORDINATES:
         return ""
@@ -138,7 +140,7 @@ def _describe_unit_mistake(problem: AssemblyProblem) -> str:
     source = problem.linkage.source
     sizes = {
         parameter.address: abs(float(problem.p[k]))
-        for k, parameter in enumerate(source.slots)
+        for k, parameter in enumerate(source.parameters)
         if parameter.dimension == (1, 0, 0) and parameter.address.startswith(("bodies.", "ground.", "joints."))
     }
     order = sorted((name for name, size in sizes.items() if size > 0.0), key=lambda name: -sizes[name])

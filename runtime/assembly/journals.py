@@ -17,8 +17,8 @@ from gudgeon.model.contours import (
     compute_corner_approach,
     compute_corner_penetration,
     compute_max_clearance,
-    find_contour,
     find_slider_dimensions,
+    get_contour_depths,
     interpolate_depth,
 )
 
@@ -41,7 +41,7 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
         if joint.is_corner:
             _check_corner_depth(linkage, p, joint, e - c)
             continue
-        if joint.name in linkage.source.rigid and e > c * (1.0 + CLEARANCE_TOL):
+        if joint.name in linkage.source.rigid_joints and e > c * (1.0 + CLEARANCE_TOL):
             length, limit = format_distinct_numbers(1e3 * e, 1e3 * c)
             raise AssemblyError(
                 f"start.play.{joint.name}.e has a length of {length} mm: expected {limit} mm at most, the clearance,"
@@ -75,9 +75,9 @@ def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None
             f"  corners have contact with the wall on their own side only: give {guide} a larger half_length, or a"
             " smaller gap"
         )
-    if source.start_apart:
+    if source.eccentricity_equations:
         values = linkage.start_values(p)[1][len(source.start_set) :]
-        named = dict(zip(source.start_apart, values, strict=True))
+        named = dict(zip(source.eccentricity_equations, values, strict=True))
         tilt = math.degrees(named.get(f"{joint.joint}.angle", 0.0))
         if abs(tilt) >= 90.0:
             raise AssemblyError(
@@ -91,7 +91,7 @@ def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth:
 
     The limit is MAX_DEPTH_OVER_RADIUS of half the guide's width; for rigid surfaces, CLEARANCE_TOL of the gap.
     """
-    rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
+    rigid, c = joint.name in linkage.source.rigid_joints, float(p[joint.clearance])
     limit = CLEARANCE_TOL * c if rigid else MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
     if depth > limit:
         why = (
@@ -107,9 +107,12 @@ def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth:
 
 
 def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
-    """Yield a note on each joint whose journal or corner starts inside the wall; rigid surfaces are left out."""
+    """Yield a note on each joint whose journal or corner starts inside the wall: its eccentricity exceeds c.
+
+    Joints with rigid surfaces are left out. The depth of a contour does not count.
+    """
     for joint, e, c in _iterate_joints_with_start_position(linkage, p):
-        if e > c and joint.name not in linkage.source.rigid:
+        if e > c and joint.name not in linkage.source.rigid_joints:
             wall = "its wall" if joint.is_corner else "its bearing's wall"
             consequence = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
@@ -125,12 +128,14 @@ def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[
     file's start sets no such position. If it sets any, bearings that it leaves out are yielded with |e| = 0.
     """
     source = linkage.source
-    if not source.start_apart:
+    if not source.eccentricity_equations:
         return
     values = linkage.start_values(p)[1][len(source.start_set) :]
     for joint in source.clearances:
         joint_values = [
-            x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint
+            x
+            for row, x in zip(source.eccentricity_equations, values, strict=True)
+            if row.rpartition(".")[0] == joint.joint
         ]
         if joint.is_corner:
             if joint_values:
@@ -149,7 +154,7 @@ def describe_contacts_without_onset(
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
     Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). Left out are contacts that resume
-    from another run, with their δ̇⁻ in discrete_states (n_memory,), and laws that do not depend on δ̇⁻.
+    from another run, with their δ̇⁻ in discrete_states (n_discrete_states,), and laws that do not depend on δ̇⁻.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(discrete_states[k])]
     notes: list[str] = []
@@ -199,7 +204,7 @@ def _find_contour_depth(
 
     It is 0 without a contour.
     """
-    if (depths := find_contour(compiled.source, p, joint.name)) is None:
+    if (depths := get_contour_depths(compiled.source, p, joint.name)) is None:
         return 0.0
     theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
     return float(interpolate_depth(depths, math.atan2(eccentricity[1], eccentricity[0]) - theta))
@@ -208,8 +213,11 @@ def _find_contour_depth(
 def find_eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """Return the indices of a joint's equations in source.start_rows, and its eccentricity (2,), m, in ground axes."""
-    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
+    """Return the indices of a joint's equations in source.start_equations, and its eccentricity.
+
+    The eccentricity (2,) is in m, in ground axes.
+    """
+    rows = [k for k, row in enumerate(compiled.source.start_equations) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 

@@ -23,7 +23,8 @@ MIN_SINGULAR_RATIO = 1e-6
 def solve_minimum_norm(matrix: Array, right_hand_side: Array) -> Array:
     """Return the minimum-norm solution x (n,) of matrix x = right_hand_side, in the least-squares sense.
 
-    It is 0 if a number is not finite. From MIN_SPARSE_COORDINATES columns on, sparse solvers are used.
+    It is 0 if a number is not finite. From MIN_SPARSE_COORDINATES columns on, sparse solvers are used, else NumPy's
+    lstsq, for which singular values below 1e-12 of the largest are 0.
     """
     if not (np.isfinite(matrix).all() and np.isfinite(right_hand_side).all()):
         return np.zeros(matrix.shape[1])

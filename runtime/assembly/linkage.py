@@ -51,7 +51,7 @@ def find_angles(source: KernelSource) -> NDArray[np.bool_]:
     return np.array([name.endswith(".theta") for name in source.coordinates], dtype=bool)
 
 
-def scale_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
+def normalize_jacobian_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
     """Return rows (m, n) of the constraint Jacobian without units, each of length 1.
 
     matrix: rows of Φ_q. Angles count as arcs at the mechanism's size.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, normalize_jacobian_rows
 from gudgeon.assembly.rank import N_NEARBY_CONFIGURATIONS, RANK_TOL, find_nearby_configurations
 from gudgeon.errors import BadValueError, Location
 from gudgeon.model.compiled import Array
@@ -58,10 +58,12 @@ def find_mobility(
     equation_indices: those of the equations that count, None for all. t: time of the drives, s. Raises ValueError if no
     Jacobian is finite.
     """
-    row_indices = list(range(len(linkage.source.start_rows))) if equation_indices is None else list(equation_indices)
+    row_indices = (
+        list(range(len(linkage.source.start_equations))) if equation_indices is None else list(equation_indices)
+    )
     with np.errstate(all="ignore"):
         near_q = find_nearby_configurations(linkage, p, q, row_indices, N_NEARBY_CONFIGURATIONS, t)
-        matrices = [scale_rows(linkage, p, linkage.closed_phi_q(t, x, p)[row_indices]) for x in near_q]
+        matrices = [normalize_jacobian_rows(linkage, p, linkage.closed_phi_q(t, x, p)[row_indices]) for x in near_q]
     null_spaces = [_compute_null_space(matrix) for matrix in matrices if np.isfinite(matrix).all()]
     regular = min(
         reversed(range(len(null_spaces))), key=lambda k: null_spaces[k].shape[1]
@@ -79,14 +81,14 @@ def find_mobility(
     )
 
 
-def compute_free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
+def compute_admissible_velocities(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
     """Return an orthonormal basis (n, dof) of the velocities that all equations allow at q.
 
     Angles count as arcs at the mechanism's size. It has no columns if the Jacobian is not finite.
     """
     scale = np.where(find_angles(linkage.source), 1.0 / compute_mechanism_size(linkage, p), 1.0)
     with np.errstate(all="ignore"):
-        matrix = scale_rows(linkage, p, linkage.closed_phi_q(t, q, p))
+        matrix = normalize_jacobian_rows(linkage, p, linkage.closed_phi_q(t, q, p))
     return _compute_null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
@@ -115,22 +117,22 @@ def _list_preferred_order(names: tuple[str, ...]) -> list[int]:
     return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
 
 
-def _select_independent_coordinates(free_motions: Array, preferred_order: list[int]) -> list[int]:
-    """Return the indices of dof independent coordinates: their velocities determine each of the free motions (n, dof).
+def _select_independent_coordinates(admissible_velocities: Array, preferred_order: list[int]) -> list[int]:
+    """Return the indices of dof independent coordinates, whose velocities determine all `admissible_velocities`.
 
     They are selected in the order `preferred_order` by Gram–Schmidt. In a first pass, a tenth or more of a coordinate's
     motion must be independent of the coordinates already selected; in a second pass, any motion above
     MIN_INDEPENDENT_MOTION.
     """
-    basis, selected = np.zeros((0, free_motions.shape[1])), list[int]()
+    basis, selected = np.zeros((0, admissible_velocities.shape[1])), list[int]()
     for independent_part in (0.1, 0.0):  # smallest independent fraction of a coordinate's motion
         for k in preferred_order:
-            remainder = free_motions[k] - (basis @ free_motions[k]) @ basis
+            remainder = admissible_velocities[k] - (basis @ admissible_velocities[k]) @ basis
             length = float(np.linalg.norm(remainder))
             if (
-                len(selected) < free_motions.shape[1]
+                len(selected) < admissible_velocities.shape[1]
                 and length > MIN_INDEPENDENT_MOTION
-                and length > independent_part * float(np.linalg.norm(free_motions[k]))
+                and length > independent_part * float(np.linalg.norm(admissible_velocities[k]))
             ):
                 basis, selected = np.vstack([basis, remainder / length]), [*selected, k]
     return selected

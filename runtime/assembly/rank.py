@@ -24,7 +24,7 @@ from gudgeon.assembly.large import (
     has_independent_rows,
     solve_minimum_norm,
 )
-from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
+from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, normalize_jacobian_rows
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
@@ -96,10 +96,10 @@ def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Arr
     """
     source = compiled.source
     redundant = set(list_redundant_equations(compiled))
-    index = [k for k in range(len(source.start_rows)) if k not in redundant]
+    index = [k for k in range(len(source.start_equations)) if k not in redundant]
     if not index:
         return ()
-    names = [source.start_rows[k].name for k in index] + list(source.start_rates)
+    names = [source.start_equations[k].name for k in index] + list(source.start_rates)
     rates = np.zeros((len(source.start_rates), len(q)))
     for k, rate in enumerate(source.start_rates):
         body, _, component = rate.partition(".")
@@ -110,10 +110,10 @@ def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Arr
     if not dependent:
         return ()
     near_q = find_nearby_configurations(
-        compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], N_NEARBY_CONFIGURATIONS, t
+        compiled, p, q, [k for k in index if source.start_equations[k].kind != "drive"], N_NEARBY_CONFIGURATIONS, t
     )
     rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near_q)
-    at_start, *others = (compute_rank(scale_rows(compiled, p, matrix), DEAD_CENTRE_TOL) for matrix in rows)
+    at_start, *others = (compute_rank(normalize_jacobian_rows(compiled, p, matrix), DEAD_CENTRE_TOL) for matrix in rows)
     return () if others and max(others) == at_start else dependent
 
 
@@ -122,7 +122,7 @@ def find_nearly_dependent_equations(compiled: CompiledModel, p: Array, t: float,
 
     () without equations, or if q is not finite.
     """
-    rows = compiled.source.rows
+    rows = compiled.source.equations
     if not rows or not np.isfinite(q).all():
         return ()
     return _find_dependent_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR_DEAD_CENTRE_TOL)
@@ -133,9 +133,10 @@ def _find_dependent_rows(
 ) -> tuple[str, ...]:
     """Return the names of the rows that depend on each other, after scaling, so that units do not matter.
 
-    matrix: rows of Φ_q. relative_limit: as in `compute_left_null_maxima`.
+    matrix: rows of Φ_q. relative_limit: as in `compute_left_null_maxima`; a row depends on others if its magnitude in
+    left null vectors exceeds 1e-6.
     """
-    maxima = compute_left_null_maxima(scale_rows(compiled, p, matrix), relative_limit)
+    maxima = compute_left_null_maxima(normalize_jacobian_rows(compiled, p, matrix), relative_limit)
     return tuple(name for name, maximum in zip(names, maxima, strict=True) if maximum > 1e-6)
 
 
@@ -157,7 +158,7 @@ def find_nearby_configurations(
         compute_mechanism_size(linkage, p),
     )
     scale = np.where(find_angles(linkage.source), 1.0, size)
-    units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in row_indices])
+    units = np.array([size if linkage.source.start_equations[k].unit == "m" else 1.0 for k in row_indices])
     for _ in range(n_configurations):
         x = q + NEARBY_DISTANCE * rng.standard_normal(len(q)) * scale
         for _ in range(50):
@@ -178,13 +179,15 @@ def find_nearby_configurations(
 
 @cache_by_values
 def list_redundant_equations(compiled: CompiledModel) -> list[int]:
-    """Return the indices in source.start_rows of equations that were found redundant and are not integrated.
+    """Return the indices in source.start_equations of equations that were found redundant and are not integrated.
 
     Equations of joints with play do not count. The list is cached: callers must not change it.
     """
     source = compiled.source
-    integrated, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}
-    return [k for k, row in enumerate(source.start_rows) if row.name not in integrated and row.owner not in with_play]
+    integrated, with_play = {row.name for row in source.equations}, {joint.joint for joint in source.clearances}
+    return [
+        k for k, row in enumerate(source.start_equations) if row.name not in integrated and row.owner not in with_play
+    ]
 
 
 def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
@@ -196,8 +199,8 @@ def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Ar
     extra = list_redundant_equations(compiled)
     if not extra:
         return
-    rows = scale_rows(compiled, p, compiled.closed_phi_q(t, q, p))
-    integrated = scale_rows(compiled, p, compiled.phi_q(t, q, p))
+    rows = normalize_jacobian_rows(compiled, p, compiled.closed_phi_q(t, q, p))
+    integrated = normalize_jacobian_rows(compiled, p, compiled.phi_q(t, q, p))
     n_rows = len(integrated)
     if compute_rank(integrated) == n_rows and compute_rank(np.concatenate([integrated, rows[extra]])) > n_rows:
         raise AssemblyError(
@@ -217,7 +220,7 @@ def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> Solve
     if not extra:
         return None
     size = compute_mechanism_size(compiled, p)
-    scale = np.array([size if compiled.source.start_rows[k].unit == "m" else 1.0 for k in extra])
+    scale = np.array([size if compiled.source.start_equations[k].unit == "m" else 1.0 for k in extra])
     stride = math.ceil(len(trajectory.t) / MAX_CHECKED_SAMPLES) if trajectory.interrupted else 1
     for k in range((len(trajectory.t) - 1) % stride, len(trajectory.t), stride):
         if k % 256 == 0:
@@ -239,7 +242,7 @@ def _describe_equations(compiled: CompiledModel, equation_indices: list[int]) ->
 
     An example: "constraint equation C.x (joints C, D)".
     """
-    equations = [compiled.source.start_rows[k] for k in equation_indices]
+    equations = [compiled.source.start_equations[k] for k in equation_indices]
     owners = dict.fromkeys([*(row.owner for row in equations), *compiled.source.indeterminate])
     return f"constraint equation {', '.join(row.name for row in equations)} (joints {', '.join(owners)})"
 
@@ -251,7 +254,7 @@ def compute_branch_velocities(compiled: CompiledModel, p: Array, t: float, q: Ar
     real branches.
     """
     redundant = set(list_redundant_equations(compiled))
-    rows = [k for k in range(len(compiled.source.start_rows)) if k not in redundant]
+    rows = [k for k in range(len(compiled.source.start_equations)) if k not in redundant]
     matrix = compiled.closed_phi_q(t, q, p)[rows]
     nu = compiled.closed_nu(t, q, p)[rows]
     if not (len(rows) == len(q) and np.isfinite(matrix).all() and np.isfinite(nu).all()):

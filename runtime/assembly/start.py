@@ -38,7 +38,8 @@ class Start:
 def assemble_start(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """Return the assembled start of a scene at time t, by C or, if that fails, by the search in Python.
 
-    Raises AssemblyError with equations, joints and residual.
+    From MIN_SPARSE_COORDINATES coordinates on, C is not tried. Raises AssemblyError with equations, joints and
+    residual, or for a start position of a journal that is too deep in its wall.
     """
     check_journal_positions(compiled, p)
     closed = (
@@ -91,7 +92,7 @@ def compute_start_velocities(problem: AssemblyProblem, q: Array) -> Array:
     target = np.concatenate([nu, problem.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
         source = problem.linkage.source
-        rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]
+        rows = [row.name for row, x in zip(source.start_equations, target, strict=False) if not np.isfinite(x)]
         raise AssemblyError(
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
             f" t = {problem.t:g} s\n  the slope of a root or a power is infinite where it begins: use smooth_step, or"

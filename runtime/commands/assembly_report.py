@@ -236,7 +236,10 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
 
 
 def _yield_unattached_body_remarks(mechanism: Mechanism, mobility: Mobility) -> Iterator[tuple[str, str]]:
-    """Yield a remark for each body with an angle drive that is free because no joint connects it to the reference."""
+    """Yield ("shaft", remark) for each body with an angle drive that no joint connects to the drive's reference.
+
+    Only bodies with an independent coordinate get a remark: without a joint their position is free.
+    """
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
         other = drive.reference or "ground"
@@ -254,7 +257,7 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
         parameter.address: abs(float(p[k]))
-        for k, parameter in enumerate(source.slots)
+        for k, parameter in enumerate(source.parameters)
         if parameter.dimension == (1, 0, 0) and not parameter.address.startswith(("parameters.", "start."))
     }
     address = max(lengths, key=lengths.__getitem__, default="")

@@ -123,29 +123,31 @@ def _format_counts(mechanism: Mechanism) -> str:
 
 
 def _build_scene_counts(source: KernelSource) -> dict[str, int]:
-    """Return the counts of a scene for the table, by label: unknowns, constraint equations, degrees of freedom,
-    operations.
+    """Return the counts of a scene for the table, by label.
+
+    They are unknowns, constraint equations, degrees of freedom, non-zeros of Φ_q, joints with play, parameters, depths
+    of contours if there are any, and the operations of each C function.
     """
     counts = {
         "unknowns": len(source.coordinates),
-        "rows": len(source.rows),
+        "rows": len(source.equations),
         "degrees of freedom": source.degrees_of_freedom,
-        "non-zeros of Φ_q": source.story.jacobian,
+        "non-zeros of Φ_q": source.reduction_log.jacobian,
         "joints with play": len({joint.joint for joint in source.clearances}),
-        "numbers that can be set": len(source.slots),
+        "numbers that can be set": len(source.parameters),
         **({"of them depths of contours": len(find_contour_parameters(source))} if source.contours else {}),
     }
     return counts | {_format_kernel_label(name): count for name, count in source.operations.items()}
 
 
-def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
+def find_eliminated_drive_equations(source: KernelSource) -> tuple[str, ...]:
     """Return the names of constraint equations of drives that the tree solves: their coordinates are functions of time.
 
     In the full formulation there are none.
     """
     if source.formulation == "full":
         return ()
-    rows = (source.rows[drive.row].name for drive in source.drives if drive.row >= 0)
+    rows = (source.equations[drive.row].name for drive in source.drives if drive.row >= 0)
     return tuple(row for row in rows if row not in source.closures)
 
 
@@ -168,9 +170,9 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
         operations["reduced"] = source.operations["reduced_dynamics"]
     return {
         "formulation": source.formulation,
-        "tree": list(source.tree),
+        "tree": list(source.tree_coordinates),
         "closures": list(source.closures),
-        "driven": list(find_solved_drives(source)),
+        "driven": list(find_eliminated_drive_equations(source)),
         "operations of the accelerations": operations,
         "methods": [*source.methods, *(REFERENCE_SOLVERS if _can_run_in_reference_solvers(source) else ())],
         "auto begins with": select_first_method(source),
@@ -238,7 +240,7 @@ def _build_scene_document(source: KernelSource) -> dict[str, Any]:
     document = {
         "events": _format_events(source),
         "notes": list(source.notes),
-        "story": build_log_document(source.story),
+        "story": build_log_document(source.reduction_log),
     }
     return {**_build_scene_counts(source), **_describe_reduction(source), **document}
 

@@ -94,7 +94,7 @@ def check_addresses(addresses: Iterable[str], file: str, sources: Sequence[Kerne
         for source in sources:
             message, hint = explain_address(source, name)
             if message:
-                entries = (*source.written, *source.expressions)
+                entries = (*source.file_expressions, *source.named_expressions)
                 addresses_in_file = (name, f"expressions.{name}")
                 location = next(
                     (Location(file, w.line, w.column) for w in entries if w.address in addresses_in_file), None
@@ -116,7 +116,7 @@ def apply_settings(mechanism: Mechanism, linkage: NumPyLinkage, settings: Mappin
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
-    source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
+    source, count = linkage.source, len(linkage.source.parameters) + len(linkage.source.derived)
     known_settings, p = select_known_settings(source, settings), linkage.p[:count].copy()
     values, is_given = read_given_parameters(source, known_settings)
     p[: len(values)][is_given] = values[is_given]

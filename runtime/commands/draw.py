@@ -51,7 +51,7 @@ class Picture:
     titles: Sequence[str]
     caption: str
 
-    def as_bytes(self, suffix: str) -> bytes:
+    def encode_picture(self, suffix: str) -> bytes:
         """Return the picture as the bytes of a file; suffix: one of SUFFIXES, ".dxf" gives a drawing for CAD."""
         if suffix == ".dxf":
             from gudgeon.drawing.dxf import encode_dxf
@@ -103,7 +103,7 @@ def draw_mechanism_file(request: DrawRequest) -> int:
         else:
             with show_status_line(), report_work(f"deriving {file.stem}, scene {request.scene}"):
                 drawn, failure = _draw_start(request, file, values)
-        data = drawn.as_bytes(target.suffix.lower())
+        data = drawn.encode_picture(target.suffix.lower())
     write_bytes(target, data)
     report_written_file("picture", target)
     if failure is not None:

@@ -41,7 +41,7 @@ class MapOptions:
     ranges: tuple[str, ...] = ()
 
     @property
-    def fixed(self) -> bool:
+    def has_fixed_step(self) -> bool:
         """Return whether the method has a fixed step."""
         return self.method in FIXED_STEP_METHODS
 
@@ -76,7 +76,7 @@ def map_file(request: MeasurementRequest, map_options: MapOptions) -> int:
         """
         parameters = request.select_parameters(simulation)
         axes = [parse_axis(simulation, text, parameters) for text in map_options.axes]
-        if map_options.fixed and not any(a.is_method_setting for a in axes) and len(axes) < 2:
+        if map_options.has_fixed_step and not any(a.is_method_setting for a in axes) and len(axes) < 2:
             axes = [make_axis(simulation, "step", steps), *axes]
         return compute_verdict_map(
             simulation,
@@ -117,7 +117,7 @@ def _map_box(
         parameters = request.select_parameters(simulation)
         axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PRESSURE_UNITS.get(a.unit, a.unit)) for a in axes.values()]
-        default_setting = find_default_step(simulation, parameters) if map_options.fixed else DEFAULT_RTOL
+        default_setting = find_default_step(simulation, parameters) if map_options.has_fixed_step else DEFAULT_RTOL
         return compute_verdict_box(
             simulation,
             ranges,
@@ -161,12 +161,14 @@ def _check_options(map_options: MapOptions, step: float | None) -> None:
                 message = f"--range {text}: all runs of a box have the same {_get_axis_name(text)}"
                 raise BadValueError(message, hint="--at gives it")
     elif map_options.at is not None and (setting_names or len(map_options.axes) < 2):
-        setting_name = "step" if map_options.fixed else "rtol"
+        setting_name = "step" if map_options.has_fixed_step else "rtol"
         raise BadValueError(
             f"--at {map_options.at}: {setting_name} is an axis of the map", hint="give two other axes, or --box"
         )
     has_step_rows = (
-        map_options.box is None and map_options.fixed and ("step" in setting_names or len(map_options.axes) < 2)
+        map_options.box is None
+        and map_options.has_fixed_step
+        and ("step" in setting_names or len(map_options.axes) < 2)
     )
     if step is not None and not has_step_rows:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
@@ -212,10 +214,10 @@ def _parse_fixed_setting(map_options: MapOptions) -> float | None:
     """Return the step (s) or tolerance of `--at`, or None without it. Raise BadValueError if it is out of range."""
     if map_options.at is None:
         return None
-    unit, power = ("s", 1) if map_options.fixed else ("", 0)
+    unit, power = ("s", 1) if map_options.has_fixed_step else ("", 0)
     value = read_parameter_value(
         parse_typed_number(map_options.at), RuntimeParameter("--at", unit, 0.0, False, (0, 0, power))
     )
-    if map_options.fixed and not value > 0:
+    if map_options.has_fixed_step and not value > 0:
         raise BadValueError(f"--at {map_options.at}: expected a positive step")
-    return value if map_options.fixed else parse_tolerance(value, map_options.method, False)
+    return value if map_options.has_fixed_step else parse_tolerance(value, map_options.method, False)

@@ -34,7 +34,7 @@ def create_mechanism_file(name: str, like: str | None) -> int:
 
 
 def create_study_file(name: str, like: str | None) -> int:
-    """Write NAME.yaml from the study template, and return the exit code.
+    """Write NAME.yaml from the study template, report it and the next commands, and return the exit code.
 
     Raises BadValueError unless `like` is None, BadNameError, and InputError if the file exists.
     """

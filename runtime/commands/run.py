@@ -39,9 +39,9 @@ from gudgeon.files.writing import write_bytes
 from gudgeon.language.names import make_missing_name_error
 from gudgeon.language.text_output import escape_invisible, format_path, print_json
 from gudgeon.loading.kernel_sources import find_mechanism
-from gudgeon.model.default_step import T_END, evaluate_scene_end, evaluate_scene_number
+from gudgeon.model.default_step import T_END, evaluate_scene_end_time, evaluate_scene_option
 from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
-from gudgeon.model.parameters import parse_typed_number, prepare_values
+from gudgeon.model.parameters import compute_parameter_values, parse_typed_number
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.from_file import load
@@ -166,7 +166,7 @@ def _check_request(request: RunRequest, settings: Settings, simulations: Mapping
     """
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
-        prepare_values(simulation.compiled, select_known_settings(simulation.source, settings))
+        compute_parameter_values(simulation.compiled, select_known_settings(simulation.source, settings))
     if request.watch or request.peaks:
         from gudgeon.results.series import get_catalogue
 
@@ -200,10 +200,10 @@ def _simulate_scenes(
     """
     t_end, step = (None if text is None else parse_typed_number(text) for text in (request.t_end, request.step))
     p = {
-        name: prepare_values(s.compiled, select_known_settings(s.source, settings))[0]
+        name: compute_parameter_values(s.compiled, select_known_settings(s.source, settings))[0]
         for name, s in simulations.items()
     }
-    end_times = (evaluate_scene_end(s.source, p[n]) for n, s in simulations.items() if n != IDEAL_SCENE)
+    end_times = (evaluate_scene_end_time(s.source, p[n]) for n, s in simulations.items() if n != IDEAL_SCENE)
     max_end_time = max(end_times, default=T_END)
     check_memory_and_disk(request, {name: (simulation, p[name]) for name, simulation in simulations.items()})
     with show_progress_bars(quiet=request.json) as make_bar:
@@ -211,7 +211,7 @@ def _simulate_scenes(
             simulation, until = simulations[name], t_end
             method = "auto" if name == IDEAL_SCENE and len(simulations) > 1 else request.method
             if until is None:
-                until = evaluate_scene_number(
+                until = evaluate_scene_option(
                     simulation.source, "t_end", p[name], max_end_time if name == IDEAL_SCENE else T_END
                 )
             outcome.optimization_notes[name] = simulation.compiled.lib.optimization_note
@@ -295,7 +295,7 @@ def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
 
 def _find_ideal_run(ideal: Simulation, run: Result, outcome: RunOutcome) -> Result:
     """Return the ideal run with times and parameter values of `run`, without stop and peaks; an equal one is reused."""
-    common_addresses = {parameter.address for parameter in ideal.source.slots}
+    common_addresses = {parameter.address for parameter in ideal.source.parameters}
     values = {address: number for address, number in run.parameters.items() if address in common_addresses}
     for other in (outcome.runs.get(IDEAL_SCENE), *outcome.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
@@ -387,7 +387,7 @@ def check_memory_and_disk(request: RunRequest, scenes: Mapping[str, tuple[Simula
     requested_output, counts = request.output, dict[str, float]()
     for name, (simulation, p) in scenes.items():
         counts[name] = 1.0 + (
-            evaluate_scene_number(simulation.source, "output", p, DEFAULT_OUTPUT)
+            evaluate_scene_option(simulation.source, "output", p, DEFAULT_OUTPUT)
             if requested_output is None
             else requested_output
         )

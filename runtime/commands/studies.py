@@ -19,7 +19,7 @@ from gudgeon.commands.common import (
 from gudgeon.commands.progress import Report, show_progress_bars, show_status_line
 from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.errors import BadValueError
-from gudgeon.model.parameters import list_addresses, parse_typed_number, prepare_values, read_parameter_value
+from gudgeon.model.parameters import compute_parameter_values, list_addresses, parse_typed_number, read_parameter_value
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.ctrl_c import INTERRUPTED
@@ -83,7 +83,8 @@ class MeasurementRequest:
     def find_table_path(self, mechanism: str, table_kind: str) -> Path:
         """Return the path of the CSV file: that of --csv, else MECHANISM_KIND.csv in --out, for example pump_map.csv.
 
-        Raises InputError if it, or the picture of the same name (.png), cannot be written.
+        Raises InputError if the path of --csv has another suffix than .csv, or if the file or the picture of the same
+        name (.png) cannot be written.
         """
         table = self.csv or self.out / f"{mechanism}_{table_kind}.csv"
         if self.csv is not None:
@@ -141,5 +142,5 @@ def load_scenes(request: MeasurementRequest) -> list[Simulation]:
         simulations = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in simulations])
     for simulation in simulations:
-        prepare_values(simulation.compiled, request.select_parameters(simulation))
+        compute_parameter_values(simulation.compiled, request.select_parameters(simulation))
     return simulations

@@ -79,7 +79,7 @@ class PointInfo:
 
 
 @dataclass(frozen=True)
-class RowInfo:
+class EquationInfo:
     """Describe a constraint equation of Φ (and its multiplier): "A.x" belongs to joint A."""
 
     name: str
@@ -151,6 +151,31 @@ class PartInfo:
     options: Mapping[str, str]  # words: {"carrier": "L3", "internal": "true"}, of a drive {"coordinate": "y"}
 
 
+# names of KernelSource fields in the stored JSON text, where they differ
+STORED_NAMES = {
+    "equations": "rows",
+    "start_equations": "start_rows",
+    "parameters": "slots",
+    "integrated_pivots": "motion_pivots",
+    "driven_loop_coordinates": "chain",
+    "driven_loop_equations": "chain_rows",
+    "reduction_log": "story",
+    "file_expressions": "written",
+    "named_expressions": "expressions",
+    "internal_states": "states",
+    "compilation_units": "units",
+    "simulate_expressions": "simulate_written",
+    "eccentricity_equations": "start_apart",
+    "tree_coordinates": "tree",
+    "taylor_file": "taylor",
+    "max_taylor_tolerance": "taylor_below",
+    "has_stage_matrices": "stages",
+    "lane_file": "lanes",
+    "rigid_joints": "rigid",
+    "massless_bodies": "massless",
+}
+
+
 @dataclass(frozen=True)
 class KernelSource:
     """Describe a scene to be compiled. `files` are C texts by name; `main` is the one to compile."""
@@ -164,12 +189,12 @@ class KernelSource:
     coordinates: tuple[str, ...]  # "L1.x", "L1.y", "L1.theta", …
     bodies: tuple[BodyInfo, ...]
     points: tuple[PointInfo, ...]
-    rows: tuple[RowInfo, ...]
+    equations: tuple[EquationInfo, ...]  # constraint equations of the motion
     joints: tuple[JointInfo, ...]
     drives: tuple[DriveInfo, ...]
     clearances: tuple[ClearanceInfo, ...]
     series: tuple[SeriesInfo, ...]
-    start_rows: tuple[RowInfo, ...]  # of the start's Φ, in which joints with play are closed
+    start_equations: tuple[EquationInfo, ...]  # of the start's Φ, in which joints with play are closed
     start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
     start_set: tuple[str, ...]
     start_rates: tuple[str, ...]  # "L1.omega"
@@ -178,7 +203,7 @@ class KernelSource:
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
     rate_jumps: tuple[str, ...]  # drives whose rate may jump, which causes impulses
     indeterminate: tuple[str, ...]  # joints and drives whose multipliers are undetermined because of redundancy
-    slots: tuple[RuntimeParameter, ...]
+    parameters: tuple[RuntimeParameter, ...]  # run-time parameters, in the order of p
     derived: tuple[str, ...]  # names of the derived values that follow the parameters in p
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
@@ -187,28 +212,31 @@ class KernelSource:
     notes: tuple[str, ...]  # notes on effects that were left out, with reasons (check -v)
     gravity: bool
     formulation: str = "full"  # formulation that is integrated: "reduced" or "full"
-    motion_pivots: tuple[str, ...] = ()  # as pivots, of the formulation that is integrated
-    tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
+    integrated_pivots: tuple[str, ...] = ()  # as pivots, of the formulation that is integrated
+    tree_coordinates: tuple[
+        str, ...
+    ] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
     closures: tuple[str, ...] = ()  # constraint equations of the reduced formulation
-    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: evaluated, not integrated
-    chain_rows: tuple[str, ...] = ()  # constraint equations of these loops
+    # coordinates that drives determine through loops: evaluated, not integrated
+    driven_loop_coordinates: tuple[str, ...] = ()
+    driven_loop_equations: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
-    story: ReductionLog = ReductionLog()  # record of the reduction (check -v)
-    written: tuple[ExpressionInfo, ...] = ()
-    expressions: tuple[ExpressionInfo, ...] = ()  # named expressions of the file that are used by name here
+    reduction_log: ReductionLog = ReductionLog()  # record of the reduction (check -v)
+    file_expressions: tuple[ExpressionInfo, ...] = ()  # of drives, forces and joints
+    named_expressions: tuple[ExpressionInfo, ...] = ()  # those of the file that are used by name here
     lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
-    states: tuple[str, ...] = ()  # internal states of laws, "A.z", equally many per joint with play; "": none
+    internal_states: tuple[str, ...] = ()  # internal states of laws, "A.z", equally many per joint with play; "": none
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
-    units: tuple[int, ...] = ()
-    taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
+    compilation_units: tuple[int, ...] = ()
+    taylor_file: str = ""  # file with the Taylor series of the motion; "": the library has none
     # tolerance below which `auto` integrates by the Taylor series, of this library or of the variant; 0: never
-    taylor_below: float = 0.0
-    stages: bool = False  # whether the library has the matrices of methods with coupled stages
-    lanes: str = ""  # file to compile for lanes; "": there is none
+    max_taylor_tolerance: float = 0.0
+    has_stage_matrices: bool = False  # whether the library has the matrices of methods with coupled stages
+    lane_file: str = ""  # file to compile for lanes; "": there is none
     cdef: str = ""  # declarations of `main` where it is compiled without the engine; "": those of the engine
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
     # expressions of `simulate` that depend on parameters; their values are the defaults
-    simulate_written: tuple[ExpressionInfo, ...] = ()
+    simulate_expressions: tuple[ExpressionInfo, ...] = ()
     tables: tuple[tuple[str, str], ...] = ()  # table files of curves in the mechanism's folder, and their SHA-256
     laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
 
@@ -229,21 +257,23 @@ class KernelSource:
 
     reference: Mapping[str, Any] = field(default_factory=dict)  # values by the NumPy target (model/reference.py)
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene requests
-    rigid: tuple[str, ...] = ()  # joints with play and rigid surfaces: Newton's restitution
-    start_apart: tuple[str, ...] = ()  # equations of joints with play that the start holds open, by e and its rate
+    rigid_joints: tuple[str, ...] = ()  # joints with play and rigid surfaces: Newton's restitution
+    eccentricity_equations: tuple[
+        str, ...
+    ] = ()  # equations of joints with play that the start holds open, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements, for drawing
     contours: tuple[ContourInfo, ...] = ()  # joints with play whose bearings have contours
-    massless: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
+    massless_bodies: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
 
     @cached_property
-    def slot_index(self) -> dict[str, int]:
+    def parameter_indices(self) -> dict[str, int]:
         """Return the index of each parameter by address. Do not write to it."""
-        return {parameter.address: k for k, parameter in enumerate(self.slots)}
+        return {parameter.address: k for k, parameter in enumerate(self.parameters)}
 
     @property
     def degrees_of_freedom(self) -> int:
         """Return the number of coordinates less that of constraint equations."""
-        return len(self.coordinates) - len(self.rows)
+        return len(self.coordinates) - len(self.equations)
 
     @cached_property
     def guides(self) -> tuple[str, ...]:
@@ -251,14 +281,14 @@ class KernelSource:
         return tuple(dict.fromkeys(joint.joint for joint in self.clearances if joint.is_corner))
 
     @property
-    def n_memory(self) -> int:
+    def n_discrete_states(self) -> int:
         """Return the number of discrete states: δ̇⁻ per joint with play, mode per friction, then internal states."""
-        return len(self.clearances) + len(self.frictions) + len(self.states)
+        return len(self.clearances) + len(self.frictions) + len(self.internal_states)
 
     @property
     def is_explicit(self) -> bool:
         """Return whether only explicit methods fit: a contact law has no derivatives."""
-        return bool(self.rigid)
+        return bool(self.rigid_joints)
 
     @property
     def reason_without_jacobian(self) -> str:
@@ -268,7 +298,7 @@ class KernelSource:
         """
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
-        contact = f"the contact in {self.rigid[0]}" if self.rigid else ""
+        contact = f"the contact in {self.rigid_joints[0]}" if self.rigid_joints else ""
         return contact and f"{contact} is a constraint that opens and closes (newton_restitution)"
 
     @cached_property
@@ -279,7 +309,7 @@ class KernelSource:
         included if the library has their matrices; those that use the Jacobian only if contact laws have derivatives.
         """
         integrators = tuple(
-            x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.is_explicit and x in NEED_SLOPES)
+            x for x in (*INTEGRATORS, *STAGED * self.has_stage_matrices) if not (self.is_explicit and x in NEED_SLOPES)
         )
         return integrators if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
@@ -290,7 +320,8 @@ class KernelSource:
     @cached_property
     def _json(self) -> str:
         """Return the JSON text, computed once."""
-        return format_json(remove_derived_values(asdict(self), _find_json_defaults()))
+        data = {STORED_NAMES.get(name, name): value for name, value in asdict(self).items()}
+        return format_json(remove_derived_values(data, _find_json_defaults()))
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
@@ -298,22 +329,24 @@ class KernelSource:
 
         Lists become tuples; bodies, joints, series and other entries become their dataclasses.
         """
-        fields = restore_derived_values(json.loads(text), _find_json_defaults())
+        data = restore_derived_values(json.loads(text), _find_json_defaults())
+        field_names = {stored_name: name for name, stored_name in STORED_NAMES.items()}
+        fields = {field_names.get(name, name): value for name, value in data.items()}
         classes = {
             "bodies": BodyInfo,
             "points": PointInfo,
-            "rows": RowInfo,
+            "equations": EquationInfo,
             "joints": JointInfo,
             "drives": DriveInfo,
             "clearances": ClearanceInfo,
-            "start_rows": RowInfo,
-            "slots": RuntimeParameter,
+            "start_equations": EquationInfo,
+            "parameters": RuntimeParameter,
             "conditions": Condition,
             "series": SeriesInfo,
             "events": EventInfo,
-            "written": ExpressionInfo,
-            "expressions": ExpressionInfo,
-            "simulate_written": ExpressionInfo,
+            "file_expressions": ExpressionInfo,
+            "named_expressions": ExpressionInfo,
+            "simulate_expressions": ExpressionInfo,
             "parts": PartInfo,
             "contours": ContourInfo,
         }
@@ -324,16 +357,21 @@ class KernelSource:
         for key, value in fields.items():
             if isinstance(value, list) and key not in classes:
                 fields[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
-        return KernelSource(**fields | {"story": ReductionLog.from_data(fields.get("story", {}))})
+        log = ReductionLog.from_data(fields.get("reduction_log", {}))
+        return KernelSource(**fields | {"reduction_log": log})
 
 
 def _find_json_defaults() -> dict[str, Any]:
-    """Return the values of KernelSource fields that the JSON text leaves out, by name of the field.
+    """Return the values of KernelSource fields that the JSON text leaves out, by their names in the text.
 
     They are the defaults of fields in JSON form (tuples as lists), empty lists and mappings for some fields without
     defaults, MAIN for `main`, and an empty mapping for the reduction log (`story`).
     """
-    defaults = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
+    defaults = {
+        STORED_NAMES.get(field.name, field.name): field.default
+        for field in fields(KernelSource)
+        if field.default is not MISSING
+    }
     json_defaults = {name: list(value) if isinstance(value, tuple) else value for name, value in defaults.items()}
     lists = (
         "rows",

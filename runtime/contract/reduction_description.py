@@ -17,7 +17,7 @@ def describe_reduction_steps(source: KernelSource) -> Iterator[tuple[int, int, s
 
     The first item describes the system of all bodies before the reduction.
     """
-    log = source.story
+    log = source.reduction_log
     yield len(log.coordinates), len(log.rows), "x, y and angle of every body; no joint has play"
     for step, n, m in log.iterate_steps():
         yield n, m, _DESCRIPTIONS[step.kind](step)
@@ -29,12 +29,14 @@ def describe_reduced_system(source: KernelSource) -> Iterator[tuple[str, str]]:
     The tree is left out if there is none. The closures (constraint equations that remain) are left out for the full
     formulation.
     """
-    log, is_reduced = source.story, source.formulation == "reduced"
+    log, is_reduced = source.reduction_log, source.formulation == "reduced"
     if log.tree:
         yield "tree", f"{_format_tree(log)}; {_explain_choice_of_tree(log.costs)}"
     yield (
         "unknowns",
-        "; ".join(_describe_coordinates(source.tree)) or "none" if is_reduced else "all of them: the full formulation",
+        "; ".join(_describe_coordinates(source.tree_coordinates)) or "none"
+        if is_reduced
+        else "all of them: the full formulation",
     )
     if is_reduced:
         noun_phrase = "rows that stay" if len(source.closures) > 1 else "the row that stays"
@@ -237,7 +239,7 @@ def _format_operations(source: KernelSource) -> str:
     if source.formulation == "full" or "reduced_dynamics" not in counts:
         return f"accelerations {n_full:,}{_format_law_operations(source)}"
     n_reduced, chains = counts["reduced_dynamics"], ""
-    if source.chain:
+    if source.driven_loop_coordinates:
         n_steps, n_rates = counts["compute_loop_step"], counts["compute_loop_rates"]
         n_reduced += n_steps + n_rates
         chains = f" with {n_rates:,} for the rates of driven chains and {n_steps:,} for each step that closes them"

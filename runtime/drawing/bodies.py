@@ -31,12 +31,16 @@ def draw_bodies(
 
     Bodies in `unconnected_bodies` have the colour of an error.
     """
-    for tint, body in enumerate(configuration.bodies):
+    for colour_index, body in enumerate(configuration.bodies):
         for role, outline in _iterate_outlines(configuration, layout, body):
             yield Line(
-                f"body {body}", "loose" if body in unconnected_bodies and role == "body" else role, outline, True, tint
+                f"body {body}",
+                "loose" if body in unconnected_bodies and role == "body" else role,
+                outline,
+                True,
+                colour_index,
             )
-        yield from _draw_point_marks(configuration, layout, body, tint)
+        yield from _draw_point_marks(configuration, layout, body, colour_index)
 
 
 def _iterate_outlines(configuration: Configuration, layout: Layout, body: str) -> Iterator[tuple[str, Array]]:
@@ -118,16 +122,16 @@ def _is_on_link(configuration: Configuration, body: str, *ends: Array) -> bool:
     return False
 
 
-def _draw_point_marks(configuration: Configuration, layout: Layout, body: str, tint: int) -> Iterator[Shape]:
+def _draw_point_marks(configuration: Configuration, layout: Layout, body: str, colour_index: int) -> Iterator[Shape]:
     """Yield a small dot for each named point of a body that no joint, drive or force element uses.
 
-    `tint` is the number of the body's colour.
+    Points called head, tail, origin or com get none. `colour_index` is the index of the body's colour.
     """
     used_points = {end for part in configuration.source.parts for end in part.ends}
     for name in configuration.points:
         owner, _, point = name.partition(".")
         if owner == body and name not in used_points and point not in ("head", "tail", "origin", "com"):
-            yield Disc(f"point {name}", "mark", configuration.get_position(name), 0.22 * layout.unit, tint)
+            yield Disc(f"point {name}", "mark", configuration.get_position(name), 0.22 * layout.unit, colour_index)
 
 
 def label_bodies(configuration: Configuration, layout: Layout) -> Iterator[Label]:

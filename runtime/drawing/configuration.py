@@ -41,7 +41,7 @@ class Configuration:
 
     def __post_init__(self) -> None:
         """Raise GudgeonError for a scene whose file lacks the ends of its parts."""
-        if self.source.start_rows and not self.source.parts:
+        if self.source.start_equations and not self.source.parts:
             raise GudgeonError(
                 "this result lacks the ends of its joints, drives and forces: an earlier version of gudgeon wrote it\n"
                 "  run the scene again"
@@ -49,17 +49,17 @@ class Configuration:
 
     @cached_property
     def points(self) -> Mapping[str, PointInfo]:
-        """Points of the scene by name."""
+        """Return the points of the scene by name."""
         return {point.name: point for point in self.source.points}
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:
-        """Bodies of the scene by name."""
+        """Return the bodies of the scene by name."""
         return {body.name: body for body in self.source.bodies}
 
     @cached_property
     def outline_points(self) -> Mapping[str, tuple[str, ...]]:
-        """Names of the points of each body that are drawn, by body.
+        """Return the names of the points of each body that are drawn, by body.
 
         First the ends of joints, drives and force elements that join points, then named points of the file other than
         origin and com. A body without such points is absent.
@@ -73,17 +73,17 @@ class Configuration:
 
     @cached_property
     def _parameter_indices(self) -> Mapping[str, int]:
-        """Index of each parameter by address."""
-        return {parameter.address: k for k, parameter in enumerate(self.source.slots)}
+        """Return the index of each parameter by address."""
+        return {parameter.address: k for k, parameter in enumerate(self.source.parameters)}
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
-        """Joints with a circular clearance (bearings with play) by name."""
+        """Return the joints with a circular clearance (bearings with play) by name."""
         return {joint.name: joint for joint in self.source.clearances if not joint.is_corner}
 
     @cached_property
     def guides(self) -> Mapping[str, tuple[ClearanceInfo, ...]]:
-        """Contacts of the four corners of each slider with play, by the name of the joint."""
+        """Return the contacts of the four corners of each slider with play, by the name of the joint."""
         corners = [contact for contact in self.source.clearances if contact.is_corner]
         return {name: tuple(contact for contact in corners if contact.joint == name) for name in self.source.guides}
 
@@ -155,7 +155,9 @@ class Configuration:
 
     def is_specified(self, address: str) -> bool:
         """Return whether the file specifies a value, a number or an expression, at an address."""
-        return address in self._parameter_indices or any(entry.address == address for entry in self.source.written)
+        return address in self._parameter_indices or any(
+            entry.address == address for entry in self.source.file_expressions
+        )
 
     def compute_direction(self, part: PartInfo, key: str, body: str) -> Array:
         """Return a vector of a joint or force element as a unit vector in ground axes, (2,).

@@ -114,7 +114,8 @@ def draw_round_arrow(
 def find_pivot(configuration: Configuration, part: PartInfo) -> Array:
     """Return the point about which the body of a drive or force element turns, (2,), in m.
 
-    It is a joint between the body and the other one or the ground, or else the body's centre of mass.
+    It is a joint between the body and the other one or the ground, or else the body's centre of mass. For the ground
+    without such a joint it is the origin.
     """
     joint, body = _find_pivot_joint_and_body(configuration, part)
     if joint is not None:

@@ -76,8 +76,8 @@ class _Layers:
         """Start with the layers of a document."""
         self._table, self._names = document.layers, dict[str, str]()
 
-    def __call__(self, part: str, tint: int) -> str:
-        """Return the name of the layer of a part, created with the colour of the body `tint` on first use.
+    def __call__(self, part: str, colour_index: int) -> str:
+        """Return the name of the layer of a part, created with the colour of index `colour_index` on first use.
 
         Forbidden characters are replaced, and a number is added to a name that another part uses.
         """
@@ -87,7 +87,7 @@ class _Layers:
             while name in self._table:
                 count += 1
                 name = f"{valid_name} {count}"
-            colour = EDGES[tint % len(EDGES)] if part.startswith("body ") else "#222222"
+            colour = EDGES[colour_index % len(EDGES)] if part.startswith("body ") else "#222222"
             self._table.add(name, true_color=_convert_colour(colour))
             self._names[part] = name
         return self._names[part]
@@ -104,8 +104,8 @@ def _draw_sketch(modelspace: Modelspace, layers: _Layers, sketch: Sketch, offset
     `offset` (2,) in m is added to all positions.
     """
     for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
-        attributes: dict[str, str | int] = {"layer": layers(shape.part, shape.tint)}
-        edge = resolve_colour(ROLES[shape.role].edge, shape.tint)
+        attributes: dict[str, str | int] = {"layer": layers(shape.part, shape.colour_index)}
+        edge = resolve_colour(ROLES[shape.role].edge, shape.colour_index)
         if edge.startswith("#"):
             attributes |= {"true_color": _convert_colour(edge)}
         if isinstance(shape, Disc):

@@ -8,7 +8,7 @@ import numpy as np
 
 from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.failures import format_length
-from gudgeon.assembly.mobility import compute_free_motions
+from gudgeon.assembly.mobility import compute_admissible_velocities
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.configuration import Configuration, get_joint_type
 from gudgeon.drawing.drives_and_forces import HEAD_LENGTH, draw_arrow, draw_round_arrow, find_pivot
@@ -56,8 +56,7 @@ def draw_gaps(problem: AssemblyProblem, configuration: Configuration) -> tuple[l
 
 
 def _compute_gap_line(configuration: Configuration, part: PartInfo, lengths: list[float]) -> Array | None:
-    """Return the line from the actual to the required end of a joint, driven coordinate or driven distance, (2, 2), in
-    m.
+    """Return the line between the actual and the required end of a joint, driven coordinate or distance, (2, 2), m.
 
     `lengths` are the residuals in m. Returns None for a joint whose symbol declares no gap line.
     """
@@ -80,7 +79,7 @@ def draw_free_motions(
     Motions below MIN_MOTION_FRACTION of the largest one are not drawn. Bodies in `unconnected_bodies` have the label
     "NAME is unconnected". `unit` is half a bar's width in m.
     """
-    motions = compute_free_motions(problem.linkage, problem.p, configuration.q, problem.t)
+    motions = compute_admissible_velocities(problem.linkage, problem.p, configuration.q, problem.t)
     max_motion = float(np.abs(motions * np.where(problem.is_angle, problem.size, 1.0)[:, None]).max(initial=0.0))
     shapes, labels = list[Shape](), list[Label]()
     for body, info in configuration.bodies.items():

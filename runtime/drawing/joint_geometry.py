@@ -31,17 +31,17 @@ class JointGeometry:
 
     @property
     def bodies(self) -> list[str]:
-        """Names of the first and the second body."""
+        """Return the names of the first and the second body."""
         return [get_body_name(end) for end in self.part.ends]
 
     @property
     def first(self) -> Array:
-        """Position of the first point."""
+        """Return the position of the first point."""
         return self.configuration.get_position(self.part.ends[0])
 
     @property
     def second(self) -> Array:
-        """Position of the second point."""
+        """Return the position of the second point."""
         return self.configuration.get_position(self.part.ends[1])
 
     def get_parameter(self, key: str) -> float:
@@ -68,27 +68,27 @@ class JointGeometry:
 
     @cached_property
     def _axis(self) -> tuple[Array, Array, Array]:
-        """Point on the guide's line, direction, and sliding point."""
+        """Return a point on the guide's line, its direction (unit vector), and the sliding point."""
         return find_sliding_axis(self.configuration, self.part)
 
     @property
     def on_line(self) -> Array:
-        """Point of the guiding body on its line."""
+        """Return the point of the guiding body on its line."""
         return self._axis[0]
 
     @property
     def along(self) -> Array:
-        """Direction of the line, a unit vector."""
+        """Return the direction of the line, a unit vector."""
         return self._axis[1]
 
     @property
     def slider(self) -> Array:
-        """Position of the point that slides on the line."""
+        """Return the position of the point that slides on the line."""
         return self._axis[2]
 
     @property
     def ground_guides(self) -> bool:
-        """Whether the line belongs to the ground."""
+        """Return whether the line belongs to the ground."""
         return has_rail(self.part)
 
 

@@ -57,7 +57,7 @@ class NameLabels(Artist):
         self.set_in_layout(False)
         self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
         self.label_offsets, self.previous_offsets = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
-        self.body_tints = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
+        self.body_tints = {shape.part: shape.colour_index for shape in sketch.shapes if shape.part.startswith("body ")}
         self.texts = [self._make_text(label, size) for label in sketch.labels]
 
     def _make_text(self, label: Label, size: float) -> Text:

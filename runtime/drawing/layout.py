@@ -69,7 +69,7 @@ def make_layout(configurations: Sequence[Configuration], start_configuration: Co
     ):
         if any(get_body_name(end) == GROUND for end in part.ends):
             ground_directions[part.name] = _find_element_ground_direction(configurations, part)
-    return Layout(_compute_symbol_unit(first_configuration, positions), ground_directions, travel)
+    return Layout(_compute_bar_half_width(first_configuration, positions), ground_directions, travel)
 
 
 def _collect_drawn_points(configuration: Configuration) -> list[Array]:
@@ -106,18 +106,19 @@ def _collect_drawn_points(configuration: Configuration) -> list[Array]:
     return points
 
 
-def _compute_symbol_unit(configuration: Configuration, positions: Array) -> float:
+def _compute_bar_half_width(configuration: Configuration, positions: Array) -> float:
     """Return half a bar's width in m, from the size of the drawing and its shortest link.
 
     It is MAX_LINK_FRACTION of the shortest link, at least MIN_UNIT_FRACTION and at most UNIT_FRACTION of the size.
-    `positions` (N, 2) are all drawn points. If they coincide, the size is the file's largest length, or 1 m without
-    lengths.
+    The size is the larger side of the box of `positions` (N, 2), all drawn points. The shortest link is the least
+    distance of two outline points of a body that exceeds 1e-3 of the size. If all points coincide, the result is
+    UNIT_FRACTION of the file's largest length, or of 1 m without lengths.
     """
     drawing_size = float(np.ptp(positions, axis=0).max())
     if not drawing_size > 0.0:  # all points coincide
         lengths = (
             abs(configuration.get_parameter(parameter.address))
-            for parameter in configuration.source.slots
+            for parameter in configuration.source.parameters
             if parameter.unit == "m"
         )
         return UNIT_FRACTION * (max(lengths, default=0.0) or 1.0)

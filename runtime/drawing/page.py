@@ -117,7 +117,7 @@ def _make_frame(sketch: Sketch, identifiers: Sequence[str], to_pixels: Any, scal
         if shape is None:
             frame.append("")
             continue
-        style = styles.setdefault((shape.role, shape.tint % len(TINTS)), len(styles))
+        style = styles.setdefault((shape.role, shape.colour_index % len(TINTS)), len(styles))
         frame.append([_format_path_data(shape, to_pixels, scale), style])
     return frame
 
@@ -131,12 +131,12 @@ def _format_path_data(shape: Shape, to_pixels: Any, scale: float) -> str:
     return f"M{text}{'z' if shape.closed else ''}"
 
 
-def _format_style(role: str, tint: int) -> str:
-    """Return the CSS of a role for shapes with the colours of body `tint`."""
+def _format_style(role: str, colour_index: int) -> str:
+    """Return the CSS of a role for shapes with the body colours of index `colour_index`."""
     role_style = ROLES[role]
     dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)}" if role_style.dashes else ""
     width = role_style.width * PIXELS_PER_INCH / 72.0
-    edge, face = resolve_colour(role_style.edge, tint), resolve_colour(role_style.face, tint)
+    edge, face = resolve_colour(role_style.edge, colour_index), resolve_colour(role_style.face, colour_index)
     return f"stroke:{edge};fill:{face};stroke-width:{width:.2f}{dashes}"
 
 
@@ -181,14 +181,17 @@ def _compute_label_positions(
 def _format_name_element(label_text: str, role: str, part: str, sketch: Sketch) -> str:
     """Return the SVG text element of a name, without position, in the style of its role."""
     colour, weight = NAMES[role]
-    tint = next((shape.tint for shape in sketch.shapes if shape.part == part), 0)
-    colour = EDGES[tint % len(EDGES)] if colour == "edge" else colour
+    colour_index = next((shape.colour_index for shape in sketch.shapes if shape.part == part), 0)
+    colour = EDGES[colour_index % len(EDGES)] if colour == "edge" else colour
     style = "italic" if role == "joint" else "normal"
     return f'<text fill="{colour}" font-weight="{weight}" font-style="{style}">{escape(label_text)}</text>'
 
 
 def _encode_changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:
-    """Return each frame with 0 for each entry that the previous frame has too; the first frame is complete."""
+    """Delta-encode frames: return each with 0 for each entry that the previous frame has too.
+
+    The first frame is complete.
+    """
     encoded = [list(frames[0])]
     for previous, frame in zip(frames, frames[1:], strict=False):
         encoded.append([0 if old == new else new for old, new in zip(previous, frame, strict=True)])

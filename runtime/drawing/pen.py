@@ -39,17 +39,17 @@ class Pen(JointGeometry):
 
     @property
     def name(self) -> str:
-        """Part to which the shapes belong."""
+        """Return the name of the part to which the shapes belong, such as "joint A"."""
         return f"joint {self.part.name}"
 
     @property
     def unit(self) -> float:
-        """Half a bar's width, m."""
+        """Return half a bar's width, m."""
         return self.layout.unit
 
     @property
-    def on_ground(self) -> bool:
-        """Whether one of the bodies is the ground."""
+    def is_on_ground(self) -> bool:
+        """Return whether one of the bodies is the ground."""
         return self.part.name in self.layout.ground_directions
 
     def compute_body_axis(self, k: int) -> Array:
@@ -57,13 +57,13 @@ class Pen(JointGeometry):
         angle = self.configuration.get_angle(self.bodies[k])
         return np.array([np.cos(angle), np.sin(angle)])
 
-    def add_line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
+    def add_line(self, role: str, points: Sequence[Array], closed: bool = False, colour_index: int = 0) -> None:
         """Add a line through points (m)."""
-        self.shapes.append(Line(self.name, role, np.array(points), closed, tint))
+        self.shapes.append(Line(self.name, role, np.array(points), closed, colour_index))
 
-    def add_disc(self, role: str, centre: Array, radius: float, tint: int = 0) -> None:
+    def add_disc(self, role: str, centre: Array, radius: float, colour_index: int = 0) -> None:
         """Add a circle with a radius in m."""
-        self.shapes.append(Disc(self.name, role, centre, radius, tint))
+        self.shapes.append(Disc(self.name, role, centre, radius, colour_index))
 
     def add_box(self, role: str, centre: Array, axis: Array, length: float, width: float) -> None:
         """Add a rectangle with half its length, along the unit vector `axis`, and half its width in units."""
@@ -78,7 +78,7 @@ class Pen(JointGeometry):
 
         Nothing is added if neither body is the ground.
         """
-        for end in self.part.ends if self.on_ground else ():
+        for end in self.part.ends if self.is_on_ground else ():
             if get_body_name(end) == GROUND:
                 position, direction = (
                     self.configuration.get_position(end),
@@ -88,7 +88,7 @@ class Pen(JointGeometry):
 
     def add_wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
-        if self.on_ground:
+        if self.is_on_ground:
             self.shapes.extend(
                 draw_ground_wall(self.name, position, self.layout.ground_directions[self.part.name], self.unit, 2.0)
             )
@@ -134,7 +134,7 @@ class Pen(JointGeometry):
 
         Rails are on one side without play, on both sides with play. The axis line lies under the block.
         """
-        if not self.on_ground:
+        if not self.is_on_ground:
             self.add_line("axis", compute_guide_ends(self.configuration, self.layout, self.part))
             return
         wall_gap = compute_wall_gap(self.configuration, self.part, self.unit)
@@ -160,15 +160,15 @@ class Pen(JointGeometry):
         rim.
         """
         body, names = self.bodies[k], list(self.configuration.bodies)
-        tint = names.index(body) if body in names else 0
+        colour_index = names.index(body) if body in names else 0
         if is_ring:
-            self.add_disc("rim", centre, radius + 1.2 * self.unit, tint)
-        self.add_disc("ring" if is_ring else "wheel", centre, radius, tint)
+            self.add_disc("rim", centre, radius + 1.2 * self.unit, colour_index)
+        self.add_disc("ring" if is_ring else "wheel", centre, radius, colour_index)
         direction, spoke_radii = (
             self.compute_body_axis(k),
             (radius, radius + 1.2 * self.unit) if is_ring else (0.0, radius),
         )
-        self.add_line("spoke", [centre + r * direction for r in spoke_radii], tint=tint)
+        self.add_line("spoke", [centre + r * direction for r in spoke_radii], colour_index=colour_index)
 
 
 def draw_ground_wall(

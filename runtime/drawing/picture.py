@@ -59,7 +59,7 @@ def _make_patch(shape: Shape, role: Role, is_grey: bool) -> Patch:
 
     With `is_grey`, edge and face are grey. An open line is not filled.
     """
-    edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
+    edge, face = resolve_colour(role.edge, shape.colour_index), resolve_colour(role.face, shape.colour_index)
     style: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
         style |= {"ls": (0.0, role.dashes)}
@@ -76,7 +76,7 @@ def compute_figure_size(sketch: Sketch, max_length: float = MAX_SIDE_IN) -> tupl
     """Return width and height in inches that suit a sketch.
 
     The longer side is `max_length`, but grows up to MAX_GROWN_SIDE_IN so that half a bar's width is at least
-    MIN_UNIT_IN.
+    MIN_UNIT_IN. The width is at least MIN_SIDE_IN, the height 0.75 MIN_SIDE_IN.
     """
     width, height = (float(x) for x in sketch.high - sketch.low)
     scale = max(max_length, min(MAX_GROWN_SIDE_IN, MIN_UNIT_IN * max(width, height) / sketch.unit)) / max(width, height)

@@ -119,7 +119,7 @@ class Rig:
 
     @property
     def size(self) -> float:
-        """Larger side of the box, m."""
+        """Return the larger side of the box, m."""
         return float((self.sketch.high - self.sketch.low).max())
 
     def to_json_data(self, resolution: float = 1e-2 * FRAME_TOL) -> dict[str, Any]:
@@ -155,7 +155,7 @@ class Rig:
 
 
 def _encode_shape(moving_shape: MovingShape, frame_indices: dict[MovingFrame, int], step: float) -> list[Any]:
-    """Return a shape for JSON: [part, role, tint, closed or radius, frame index, [integers], frame index, …].
+    """Return a shape for JSON: [part, role, colour index, closed or radius, frame index, [integers], frame index, …].
 
     `frame_indices` are the indices of the moving frames in the JSON. A line has 0 or 1 for closed, a disc [r₀, r₁, k].
     Integers are offsets in units of `step` (m).
@@ -168,7 +168,7 @@ def _encode_shape(moving_shape: MovingShape, frame_indices: dict[MovingFrame, in
         previous_frame = moving_frame
     r0, r1, k = moving_shape.radius
     closed: Any = [round(r0 / step), r1, k] if isinstance(shape, Disc) else int(shape.closed)
-    return [shape.part, shape.role, shape.tint, closed, *encoded_points]
+    return [shape.part, shape.role, shape.colour_index, closed, *encoded_points]
 
 
 def _round_to_integers(lengths: Array, step: float) -> list[int]:
@@ -260,7 +260,7 @@ def _vary_configurations(configurations: Sequence[Configuration], size: float) -
     length_parameters = {i for point in source.points for i in (point.x, point.y) if i >= 0}
     length_parameters |= {
         i
-        for i, parameter in enumerate(source.slots)
+        for i, parameter in enumerate(source.parameters)
         if parameter.unit == "m" or parameter.address.endswith((".x", ".y"))
     }
     is_angle = np.zeros(len(source.coordinates), dtype=bool)
@@ -315,7 +315,7 @@ def _iterate_candidate_frames(configuration: Configuration, part: str) -> Iterat
     turns += _list_axis_directions(configuration, parts) + [
         ("load", item.name) for item in parts if item.kind == "force"
     ]
-    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.parameters)}
     turns += (
         [("axis", parameter_indices.get("gravity.x", -1), parameter_indices.get("gravity.y", -1), -1)]
         if kind == "gravity"
@@ -328,7 +328,7 @@ def _iterate_candidate_frames(configuration: Configuration, part: str) -> Iterat
         k
         for address, k in parameter_indices.items()
         for item in parts
-        if address.startswith(f"{item.section}.{item.name}.") and source.slots[k].unit == "m"
+        if address.startswith(f"{item.section}.{item.name}.") and source.parameters[k].unit == "m"
     ]
     length_indices += [
         item.clearance
@@ -349,7 +349,7 @@ def _list_axis_directions(configuration: Configuration, parts: Sequence[Any]) ->
     parameter are left out.
     """
     parameter_indices, axis_directions = (
-        {parameter.address: k for k, parameter in enumerate(configuration.source.slots)},
+        {parameter.address: k for k, parameter in enumerate(configuration.source.parameters)},
         list[tuple[Any, ...]](),
     )
     for part in parts:
@@ -393,9 +393,9 @@ class _FrameSearch:
     def attach_shape(self, shape: Shape, shapes_by_configuration: Sequence[Shape | None]) -> MovingShape:
         """Return the shape with a moving frame for each point: the first that reproduces it within the tolerance.
 
-        Without one it is the frame with the smallest rank (see `_fit_frame`). `shapes_by_configuration` are its
-        drawings at all configurations, None where it is absent. If fewer than MIN_CONFIGURATIONS have the same number
-        of points, only the first is used.
+        Without one it is the frame of the smallest penalized error (see `_fit_frame`). `shapes_by_configuration` are
+        its drawings at all configurations, None where it is absent. If fewer than MIN_CONFIGURATIONS have the same
+        number of points, only the first is used.
         """
         points = _get_shape_points(shape)
         indices = [
@@ -408,15 +408,17 @@ class _FrameSearch:
         indices = indices if len(indices) >= MIN_CONFIGURATIONS else list(range(1))
         positions = np.array([_get_shape_points(shapes_by_configuration[k]) for k in indices])  # type: ignore[arg-type]
         best_frame_indices, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
-        offsets, best_ranks = np.zeros((len(points), 4)), np.full(len(points), np.inf)
+        offsets, best_penalized_errors = np.zeros((len(points), 4)), np.full(len(points), np.inf)
         for index in range(len(self.moving_frames)):
-            if not (best_ranks > self.tolerance).any():
+            if not (best_penalized_errors > self.tolerance).any():
                 break
-            fitted, rank, errors = self._fit_frame(index, positions, indices)
-            is_better = (best_ranks > self.tolerance) & (rank < (1.0 - 1e-6) * best_ranks)
-            best_frame_indices[is_better], best_ranks[is_better], best_errors[is_better] = (
+            fitted, penalized_errors, errors = self._fit_frame(index, positions, indices)
+            is_better = (best_penalized_errors > self.tolerance) & (
+                penalized_errors < (1.0 - 1e-6) * best_penalized_errors
+            )
+            best_frame_indices[is_better], best_penalized_errors[is_better], best_errors[is_better] = (
                 index,
-                rank[is_better],
+                penalized_errors[is_better],
                 errors[is_better],
             )
             offsets[is_better] = fitted[is_better]
@@ -432,10 +434,12 @@ class _FrameSearch:
     def _fit_frame(
         self, frame_index: int, positions: Array, configuration_indices: Sequence[int]
     ) -> tuple[Array, Array, Array]:
-        """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one moving frame.
+        """Fit points in the axes of one moving frame: c₀ + s c₁, with s the length coordinate of the frame.
 
-        A rank is the error, plus 1000 times the error at configurations of the motion if that exceeds the tolerance.
-        The search prefers smaller ranks. `positions` (K, N, 2) belong to `configuration_indices`.
+        c₁ is the slope of a linear regression over the configurations; 0 if the frame has no length or s is constant.
+        c₀ follows from the first configuration. Returns c₀ and c₁ (N, 4), penalized errors (N,) and largest errors
+        (N,) in m. A penalized error is the largest error plus 1000 times that at configurations of the motion, if the
+        latter exceeds the tolerance. `positions` (K, N, 2) of the points belong to `configuration_indices`.
         """
         frames = [self.evaluated_frames[frame_index][k] for k in configuration_indices]
         local_points = np.array(
@@ -452,16 +456,8 @@ class _FrameSearch:
             )
         offset = local_points[0] - s[0] * slope
         errors = np.linalg.norm(local_points - offset - s[:, None, None] * slope, axis=2)
-        max_errors, motion_errors = (
-            errors.max(axis=0),
-            errors[
-                [
-                    k
-                    for k, configuration_index in enumerate(configuration_indices)
-                    if configuration_index < self.n_motion
-                ]
-            ].max(axis=0),
-        )
+        is_of_motion = np.array(configuration_indices) < self.n_motion
+        max_errors, motion_errors = errors.max(axis=0), errors[is_of_motion].max(axis=0)
         # if no frame fits at other parameters, prefer one that fits at the file's parameters
         return (
             np.hstack([offset, slope]),
@@ -487,7 +483,7 @@ class _FrameSearch:
         if np.ptp(radii) <= self.tolerance:
             return shape.radius, 0.0, -1
         p = np.array([configuration.p for configuration in self.configurations])
-        for k in np.flatnonzero(np.ptp(p[:, : len(self.configurations[0].source.slots)], axis=0) > 0.0):
+        for k in np.flatnonzero(np.ptp(p[:, : len(self.configurations[0].source.parameters)], axis=0) > 0.0):
             slope = (radii[-1] - radii[0]) / (p[-1, k] - p[0, k]) if p[-1, k] != p[0, k] else 0.0
             if np.abs(radii - radii[0] - slope * (p[:, k] - p[0, k])).max() <= self.tolerance:
                 return float(radii[0] - slope * p[0, k]), float(slope), int(k)

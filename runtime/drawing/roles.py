@@ -90,7 +90,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
 }
 
 
-def resolve_colour(colour_name: str, tint: int) -> str:
-    """Return the CSS colour of a colour's name; for "tint" and "edge" that of the body `tint`, "none" for ""."""
+def resolve_colour(colour_name: str, colour_index: int) -> str:
+    """Return the CSS colour of a colour's name; "tint" and "edge" are body colours, "" is "none"."""
     palette = {"tint": TINTS, "edge": EDGES}.get(colour_name)
-    return palette[tint % len(palette)] if palette else colour_name or "none"
+    return palette[colour_index % len(palette)] if palette else colour_name or "none"

@@ -19,7 +19,7 @@ class Line:
     role: str
     points: Array
     closed: bool = False
-    tint: int = 0  # index of the body's colour
+    colour_index: int = 0  # index of the body's colour
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +30,7 @@ class Disc:
     role: str
     centre: Array
     radius: float
-    tint: int = 0
+    colour_index: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +187,10 @@ def compute_arrow_head(tip: Array, direction: Array, size: float) -> Array:
 
 
 def compute_bounding_box(shapes: Iterable[Shape]) -> tuple[Array, Array]:
-    """Return the lower left and upper right corner of the box that contains all shapes, (2,) each, in m."""
+    """Return the lower left and upper right corner of the box that contains all shapes, (2,) each, in m.
+
+    Raises ValueError without shapes.
+    """
     lows, highs = [], []
     for shape in shapes:
         if isinstance(shape, Disc):

@@ -65,7 +65,7 @@ def _format_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Co
     filled.
     """
     role = ROLES[shape.role]
-    edge, face = resolve_colour(role.edge, shape.tint), resolve_colour(role.face, shape.tint)
+    edge, face = resolve_colour(role.edge, shape.colour_index), resolve_colour(role.face, shape.colour_index)
     is_filled = face != "none" and (isinstance(shape, Disc) or shape.closed)
     options = [
         f"line width={role.width:g}bp",

@@ -26,11 +26,11 @@ from gudgeon.contract.methods import FINE
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.exchange.fmu_description import (
     UNITS,
-    build_build_description,
-    build_description,
+    build_fmu_build_description,
+    build_model_description,
     compute_instantiation_token,
     explain_exchange_obstacle,
-    find_jump_switches,
+    find_discontinuous_switches,
     iterate_outputs,
 )
 from gudgeon.files.writing import write_bytes
@@ -80,8 +80,8 @@ def build_fmu(simulation: Simulation) -> bytes:
     }  # not called by an FMU
     sources = {**scene_files, **_read_engine_texts(), "fmu.h": _format_header(simulation)}
     files = {
-        "modelDescription.xml": build_description(source, name).encode(),
-        "sources/buildDescription.xml": build_build_description(name).encode(),
+        "modelDescription.xml": build_model_description(source, name).encode(),
+        "sources/buildDescription.xml": build_fmu_build_description(name).encode(),
         **{f"sources/{path}": text.encode() for path, text in sources.items()},
         f"sources/{README}": _format_readme(source, name, scene_files).encode(),
     }
@@ -177,21 +177,25 @@ def _format_header(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    small_rtol = (source.taylor and source.taylor_below) or FINE
+    small_rtol = (source.taylor_file and source.max_taylor_tolerance) or FINE
     methods = {
         rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol))
         for rtol in (small_rtol, 0.5 * small_rtol)
     }
     (first_method_name, stiff_method_name), (first_method_fine, stiff_method_fine) = methods.values()
-    gains = [source.slot_index[name] for name in GAINS if name in source.slot_index]
+    gains = [source.parameter_indices[name] for name in GAINS if name in source.parameter_indices]
     sizes, clearance_indices = find_size_indices(source), [joint.clearance for joint in source.clearances]
-    angles = [int(x) for x in find_integrated_angles(source)] if source.tree or source.formulation == "full" else []
+    angles = (
+        [int(x) for x in find_integrated_angles(source)]
+        if source.tree_coordinates or source.formulation == "full"
+        else []
+    )
     output_columns = [(part, column) for _, _, part, column, _ in iterate_outputs(source)]
     defines: dict[str, object] = {
         "FMU_TOKEN": f'"{compute_instantiation_token(source)}"',
-        "FMU_PARAMETERS": max(len(source.slots), 1),
+        "FMU_PARAMETERS": max(len(source.parameters), 1),
         "FMU_VALUES": max(compiled.n_p, 1),
-        "FMU_N_PARAMETERS": len(source.slots),
+        "FMU_N_PARAMETERS": len(source.parameters),
         "FMU_OUTPUTS": len(output_columns),
         "FMU_BAUMGARTE_GAINS": len(gains),
         "FMU_SIZES": len(sizes),
@@ -209,7 +213,7 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_STIFF_METHOD_FINE": f'"{stiff_method_fine}"',
         "FMU_EXCHANGE": int(not explain_exchange_obstacle(source)),
         "FMU_CONDITIONS": len(list_conditions(source)),
-        "FMU_JUMPS": len(find_jump_switches(source)),
+        "FMU_JUMPS": len(find_discontinuous_switches(source)),
         "FMU_MIN_RELATIVE_CLEARANCE": repr(MIN_RELATIVE_CLEARANCE),
     }
     lines = [
@@ -218,13 +222,13 @@ def _format_header(simulation: Simulation) -> str:
     ]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
     lines += [
-        _format_c_array("double", "fmu_defaults", [repr(float(parameter.default)) for parameter in source.slots]),
+        _format_c_array("double", "fmu_defaults", [repr(float(parameter.default)) for parameter in source.parameters]),
         _format_c_array("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
         _format_c_array("int", "fmu_baumgarte_gains", gains),
         _format_c_array("int", "fmu_clearances", clearance_indices),
         _format_c_array("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
         _format_c_array("unsigned char", "fmu_is_angle", angles),
-        _format_c_array("int", "fmu_jumps", find_jump_switches(source)),
+        _format_c_array("int", "fmu_jumps", find_discontinuous_switches(source)),
         _format_c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in output_columns], "[2]"),
     ]
     return "\n".join([*lines, *_format_condition_tables(source)]) + "\n"
@@ -239,7 +243,7 @@ def _format_condition_tables(source: KernelSource) -> list[str]:
     parameter_rows = [
         f"{{{_format_c_string(parameter.address)}, {_format_c_string(parameter.unit)}, {int(parameter.follows)},"
         f" {int(bool(parameter.words))}}}"
-        for parameter in source.slots
+        for parameter in source.parameters
     ]
     condition_rows: list[str] = []
     bound_indices: list[int] = []
@@ -248,12 +252,12 @@ def _format_condition_tables(source: KernelSource) -> list[str]:
         message_literal = _format_c_string(
             f"{condition.message}; expected {format_conditions(source, condition.address)}"
         )
-        index = source.slot_index[condition.address]
+        index = source.parameter_indices[condition.address]
         condition_rows.append(
             f"{{{index}, {len(bound_indices)}, {len(condition.addresses)},"
             f' "{condition.relation}", {constant!r}, {message_literal}}}'
         )
-        bound_indices += [source.slot_index[address] for address in condition.addresses]
+        bound_indices += [source.parameter_indices[address] for address in condition.addresses]
     return [
         _format_c_array(
             "struct { const char *address, *unit; int follows, chosen; }",

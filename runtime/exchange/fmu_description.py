@@ -60,7 +60,7 @@ def iterate_outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, 
     indeterminate_names = {
         f"{name}.{component}" for name in source.indeterminate for component in ("Fx", "Fy", "M", "torque", "force")
     }
-    indeterminate_names |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
+    indeterminate_names |= {f"lambda.{row.name}" for row in source.equations if row.owner in source.indeterminate}
     for name, series in get_catalogue(source).items():
         if name in indeterminate_names:
             continue
@@ -95,7 +95,7 @@ def _format_bound_attributes(source: KernelSource, address: str) -> str:
 
 def iterate_parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
     """Yield index, address, unit and default of each parameter that an FMU can set; choices of a name are left out."""
-    for k, parameter in enumerate(source.slots):
+    for k, parameter in enumerate(source.parameters):
         if not parameter.words:
             yield k, parameter.address, parameter.unit, parameter.default
 
@@ -108,13 +108,14 @@ def explain_exchange_obstacle(source: KernelSource) -> str:
     """
     if source.degrees_of_freedom == 0:
         return "no degrees of freedom: drives determine the motion"
-    if source.frictions or source.rigid:
-        return f"{', '.join((*source.frictions, *source.rigid))}: modes that only the time loops of the engine switch"
+    if source.frictions or source.rigid_joints:
+        names = ", ".join((*source.frictions, *source.rigid_joints))
+        return f"{names}: modes that only the time loops of the engine switch"
     if source.rate_jumps:
         return f"impulses where the rate of {', '.join(source.rate_jumps)} jumps"
-    if source.states:
-        return f"internal states of laws ({', '.join(source.states)})"
-    if source.chain:
+    if source.internal_states:
+        return f"internal states of laws ({', '.join(source.internal_states)})"
+    if source.driven_loop_coordinates:
         return "kinematic loops that only drives determine"
     return source.reason_without_jacobian
 
@@ -126,7 +127,7 @@ def list_states(source: KernelSource) -> list[tuple[str, str]]:
     """
     if explain_exchange_obstacle(source):
         return []
-    names = source.tree if source.formulation == "reduced" else source.coordinates
+    names = source.tree_coordinates if source.formulation == "reduced" else source.coordinates
     angles = find_integrated_angles(source)
     position_states = [
         (f"state.{name}", "rad" if is_angle else "m") for name, is_angle in zip(names, angles, strict=True)
@@ -140,7 +141,7 @@ def list_states(source: KernelSource) -> list[tuple[str, str]]:
 def compute_instantiation_token(source: KernelSource) -> str:
     """Return the instantiation token (FMI 3) that ties the library to its description.
 
-    It is a hash of mechanism, scene and generated C.
+    It is a hash of mechanism, scene and generated C: 32 hexadecimal digits in braces.
     """
     texts = [source.mechanism, source.scene, *(text for item in sorted(source.files.items()) for text in item)]
     return "{" + sha256("\0".join(texts).encode()).hexdigest()[:32] + "}"
@@ -210,7 +211,7 @@ def _iterate_variable_elements(source: KernelSource) -> Iterator[str]:
         yield _format_local_variable(
             f"rate of {name}", VR_RATES + k, _find_rate_unit(unit), f' derivative="{VR_STATES + k}"'
         )
-    for k, (name, unit) in enumerate(list_indicators(source)):
+    for k, (name, unit) in enumerate(list_event_indicators(source)):
         yield _format_local_variable(name, VR_INDICATORS + k, unit)
 
 
@@ -225,11 +226,11 @@ def _format_local_variable(name: str, reference: int, unit: str, attributes: str
     )
 
 
-def find_jump_switches(source: KernelSource) -> list[int]:
+def find_discontinuous_switches(source: KernelSource) -> list[int]:
     """Return the indices of the switching functions across which an expression may be discontinuous.
 
-    They are those with 0 in the array meets[] of the scene's header. Empty for a scene that supports co-simulation
-    only.
+    They are those with 0 in the array is_continuous_switch[] of the scene's header. Empty for a scene that supports
+    co-simulation only.
     """
     if explain_exchange_obstacle(source):
         return []
@@ -239,14 +240,14 @@ def find_jump_switches(source: KernelSource) -> list[int]:
     return [k for k in range(parse_sizes(source)["N_SWITCHES"]) if int(continuity_flags[k]) == 0]
 
 
-def list_indicators(source: KernelSource) -> list[tuple[str, str]]:
+def list_event_indicators(source: KernelSource) -> list[tuple[str, str]]:
     """Return (name, unit) of each event indicator: penetrations of joints with play, then switching functions.
 
     The list is empty for a scene that supports co-simulation only.
     """
     if explain_exchange_obstacle(source):
         return []
-    switching_functions = [(f"corner {k + 1}", "") for k in range(len(find_jump_switches(source)))]
+    switching_functions = [(f"corner {k + 1}", "") for k in range(len(find_discontinuous_switches(source)))]
     return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + switching_functions
 
 
@@ -271,11 +272,11 @@ def _iterate_structure_elements(source: KernelSource) -> Iterator[str]:
     ):
         yield from (f'    <InitialUnknown valueReference="{reference}"/>' for reference in references)
     yield from (
-        f'    <EventIndicator valueReference="{VR_INDICATORS + k}"/>' for k in range(len(list_indicators(source)))
+        f'    <EventIndicator valueReference="{VR_INDICATORS + k}"/>' for k in range(len(list_event_indicators(source)))
     )
 
 
-def build_description(source: KernelSource, name: str) -> str:
+def build_model_description(source: KernelSource, name: str) -> str:
     """Return the text of modelDescription.xml; `name` is the model identifier.
 
     Model exchange is left out for a scene that supports co-simulation only.
@@ -321,7 +322,7 @@ def build_description(source: KernelSource, name: str) -> str:
     )
 
 
-def build_build_description(name: str) -> str:
+def build_fmu_build_description(name: str) -> str:
     """Return the text of sources/buildDescription.xml, from which an importer compiles the C files.
 
     It names the compilation units, the language C11, the option -ffp-contract=off and the library m. `name` is the

@@ -78,7 +78,7 @@ class Linkage:
     bodies_by_point: dict[str, list[Body]] = field(default_factory=dict)  # updated by `add_body` and `add_point`
 
     def add_body(self, body: Body) -> Body:
-        """Add a body, and return it.
+        """Add a body, list it under each of its points, and return it.
 
         Raises InputError if it has fewer than two points, or if the first two coincide.
         """

@@ -48,7 +48,9 @@ class SpecialJoints:
 
 
 def find_query(text: str) -> str | None:
-    """Return the decoded text after the question mark of the first link of PMKS+ in a text; None if there is none."""
+    """Return the decoded query (after "?") of the first URL of PMKS+ in a text; None if there is none.
+
+    The query ends before the first space, bracket or quotation mark."""
     for link in text.split():
         start = link.find("://")
         host = link.find("pmks", start)

@@ -39,9 +39,10 @@ def read_pylinkage(parsed_json: Any) -> Linkage:
 
 
 def _read_name(entry: Entry, key: str, description: str) -> str:
-    """Return the name under a key of an entry, a text or a number, as text.
+    """Return the name under a key of an entry as text: a non-empty text or an integer.
 
-    `description` names the entry in the error. Raises InputError if there is no name.
+    `description` names the entry in the error. Raises InputError, with the entry's type, if the key is missing or has
+    another value.
     """
     name = entry.get(key)
     if isinstance(name, bool) or not isinstance(name, (str, int)) or name == "":
@@ -133,7 +134,7 @@ class _GroundPoints:
         self.linkage, self.joint_names, self.name_by_position = linkage, joint_names, dict[Point, str]()
 
     def get_or_add_name(self, position: Point) -> str:
-        """Return the name of the ground point at a position; a new point is added to the linkage."""
+        """Return the name of the ground point at a position; a new point (O1, O2, …) is added to the linkage."""
         if position not in self.name_by_position:
             name = f"O{len(self.name_by_position) + 1}"
             while name in self.joint_names:

@@ -96,11 +96,11 @@ def _read_free_memory_of_groups(root: Path) -> Iterator[float]:
         ):
             for limit, usage in _GROUPS:
                 with suppress(OSError, ValueError):  # "max": none
-                    used_bytes = int((folder / usage).read_text()) - _read_droppable_bytes(folder)
+                    used_bytes = int((folder / usage).read_text()) - _read_reclaimable_bytes(folder)
                     yield float(int((folder / limit).read_text()) - used_bytes)
 
 
-def _read_droppable_bytes(folder: Path) -> int:
+def _read_reclaimable_bytes(folder: Path) -> int:
     """Return the bytes of file pages in a control group that can be dropped; 0 if unknown."""
     with suppress(OSError, ValueError):
         for line in (folder / "memory.stat").read_text().splitlines():

@@ -65,7 +65,7 @@ def _check_path_component(path: str, status: os.stat_result) -> None:
         raise UntrustedPathError(f"{path} belongs to another user (uid {status.st_uid})")
     if stat.S_ISLNK(status.st_mode) or status.st_mode & stat.S_ISVTX:
         return
-    if status.st_mode & 0o002 or (status.st_mode & 0o020 and not _is_own_group(status.st_gid)):
+    if status.st_mode & 0o002 or (status.st_mode & 0o020 and not _is_private_group(status.st_gid)):
         writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
         raise UntrustedPathError(f"{writer} may write to {path}")
 
@@ -116,7 +116,7 @@ def _find_path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], 
     return [*components, (folder, os.lstat(folder))] if components[-1][0] != folder else components, True
 
 
-def _is_own_group(group: int) -> bool:
+def _is_private_group(group: int) -> bool:
     """Return whether a group is the user's private group: it has the user's name and no other member.
 
     `group` is its number; False for a group or user without an entry.

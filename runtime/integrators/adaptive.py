@@ -52,8 +52,8 @@ from gudgeon.model.parameters import read_parameter_value
 from gudgeon.model.sizes import (
     compute_mechanism_sizes,
     compute_size,
+    scatter_lengths,
     select_lengths,
-    spread_lengths,
 )
 
 RTOL = 1e-8  # default tolerance of a run
@@ -94,7 +94,7 @@ def select_stiff_method(source: KernelSource, rtol: float) -> str:
 
     It is rodas5p, or with a film radau5 (radau9 for rtol below FINE) if the library has their stages.
     """
-    return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
+    return STAGED[rtol < FINE] if source.has_stage_matrices and _has_film(source) else STIFF
 
 
 def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
@@ -113,20 +113,20 @@ def select_explicit_method(source: KernelSource, rtol: float) -> str:
     """Return the name of the explicit method of `auto`: TAYLOR for tolerances at which it is faster, else EXPLICIT.
 
     The generator predicts this tolerance from the number of operations (generator/kernels/taylor.py). A library without
-    the series has EXPLICIT only: `lacks_series`.
+    the series has EXPLICIT only: `lacks_taylor_series`.
     """
-    return TAYLOR if source.taylor and rtol < source.taylor_below else EXPLICIT
+    return TAYLOR if source.taylor_file and rtol < source.max_taylor_tolerance else EXPLICIT
 
 
-def lacks_series(source: KernelSource, rtol: float) -> bool:
+def lacks_taylor_series(source: KernelSource, rtol: float) -> bool:
     """Return whether `auto` integrates by Taylor series at a tolerance, but the library of the scene has none.
 
     The variant TAYLOR of the scene has them.
     """
-    return not source.taylor and rtol < source.taylor_below
+    return not source.taylor_file and rtol < source.max_taylor_tolerance
 
 
-def uses_series(source: KernelSource, method: str, rtol: float) -> bool:
+def uses_taylor_series(source: KernelSource, method: str, rtol: float) -> bool:
     """Return whether a run by a method, as select_method returns it, makes its steps by Taylor series."""
     return (select_first_method(source, rtol) if method == ADAPTIVE else method) == TAYLOR
 
@@ -165,7 +165,7 @@ def compute_error_lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Arr
 def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
     """Return a mask (n_x,) of the integrated coordinates that are angles, for either formulation."""
     if source.formulation == "reduced":  # tree coordinates: angles are named by their bodies, lengths "guide.slide"
-        return np.array(["." not in name for name in source.tree], dtype=bool)
+        return np.array(["." not in name for name in source.tree_coordinates], dtype=bool)
     return find_angles(source)
 
 
@@ -216,22 +216,24 @@ def compute_tolerances_of_runs(compiled: CompiledModel, p: Array, rtol: float) -
     """
     if len(p) > 1:
         return _compute_tolerances_and_sizes(compiled, p, rtol)
-    return _compute_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
+    return _compute_cached_tolerances_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
 
 
 @cache_by_values
-def _compute_tolerances_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
+def _compute_cached_tolerances_of_run(
+    compiled: CompiledModel, lengths: Array, rtol: float
+) -> tuple[Array, Array, Array]:
     """Return what `compute_tolerances_of_runs` returns for one run: tolerances (1, 2 n_x), (L, L/S) (1, 2), S (1,).
 
     `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
     """
-    p = spread_lengths(compiled.source, lengths)
+    p = scatter_lengths(compiled.source, lengths)
     size = compute_size(compiled.source, p)
-    scale, least = compute_tolerances_of_values(compiled.source, p, size, rtol)
+    scale, least = compute_tolerances_of_single_run(compiled.source, p, size, rtol)
     return scale[None], np.array([least]), np.array([size])
 
 
-def compute_tolerances_of_values(
+def compute_tolerances_of_single_run(
     source: KernelSource, p: Array, size: float, rtol: float
 ) -> tuple[Array, tuple[float, float]]:
     """Return error tolerances (2 n_x,), L and L/S of one run, from its parameter values p (n_p,) and S, `size` (m).

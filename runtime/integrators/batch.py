@@ -35,7 +35,7 @@ from gudgeon.integrators import adaptive, lanes
 from gudgeon.integrators.failure import INTERRUPTED, build_audit_error, build_run_error
 from gudgeon.integrators.kinematic_ensemble import (
     KinematicEnsemble,
-    count_kinematic_rows,
+    count_runs_per_kinematic_call,
     has_kinematic_ensemble,
 )
 from gudgeon.integrators.lanes import LaneProvider, Lanes
@@ -88,7 +88,7 @@ class Runs(StoredRuns):
         has_lanes = side_by_side and is_in_c and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
             compiled.lib.wait_for_optimized_library()  # lanes call its functions
-        has_series = adaptive.uses_series(compiled.source, method, rtol)
+        has_series = adaptive.uses_taylor_series(compiled.source, method, rtol)
         self.lane_provider = LaneProvider(compiled, has_series) if has_lanes else None
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
@@ -98,7 +98,7 @@ class Runs(StoredRuns):
         )  # rows of finished runs that are not stored yet
         self.n_rows_per_thread = self.n_lanes + n_unstored_rows  # rows of samples per thread
         if is_kinematic:
-            self.n_rows_per_thread = count_kinematic_rows(N)
+            self.n_rows_per_thread = count_runs_per_kinematic_call(N)
         super().__init__(
             compiled,
             method,
@@ -165,7 +165,7 @@ class Runs(StoredRuns):
         x, nc = self.arrays, len(self.compiled.source.clearances)
         for i, start in enumerate(starts):
             x["start"][i] = np.concatenate([start.q, start.v])
-            x["initial_discrete_states"][i, : self.compiled.n_memory] = start.memory
+            x["initial_discrete_states"][i, : self.compiled.n_discrete_states] = start.memory
             if start.state is not None:
                 x["codes"][i, :nc] = start.state
                 self.resumed.add(i)
@@ -263,7 +263,7 @@ class Runs(StoredRuns):
             self.times.get_times(i),
             x["start"][i, :n],
             x["start"][i, n:],
-            x["initial_discrete_states"][i, : self.compiled.n_memory],
+            x["initial_discrete_states"][i, : self.compiled.n_discrete_states],
             float(x["step"][i]),
             state=x["codes"][i, :joints] if i in self.resumed else None,
             method=self.method,
@@ -383,11 +383,14 @@ class Runs(StoredRuns):
                 self.fetch_contacts_and_events(int(current[0]), run, status == RUN_ENDED)
                 if step_log:
                     step_log.observer = self.observers[int(current[0])]
-                    step_log.flush_rows(run)
+                    step_log.flush_recorded_states(run)
             current[0] += status == RUN_ENDED
 
     def _build_error(self, i: int) -> GudgeonError:
-        """Build the error that ended run i in C, from its status and the values that C stored."""
+        """Build the error that ended run i in C, from its status and the values that C stored.
+
+        It is an AuditError if the run ended because a check of its audit exceeded the limit.
+        """
         if self.arrays["status"][i] == AUDITED:
             return build_audit_error(self.build_findings(i))
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "time_gain", "monitored_steps", "ended"

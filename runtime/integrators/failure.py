@@ -126,10 +126,10 @@ def _build_status_error(
             return _build_unbounded_drive_error(drive, t)
         if method in NEED_SLOPES and (reason_text := find_force_with_unbounded_slope(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{reason_text}\n  {NO_SLOPE}", t)
-        fast_drives = format_drive_states(compiled, p, t, MAX_DRIVE_RATE)
-        advice = GROWN if fast_drives else advice
+        fast_drive_hint = format_drive_states(compiled, p, t, MAX_DRIVE_RATE)
+        advice = GROWN if fast_drive_hint else advice
     if status == NOT_FINITE:
-        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast_drives}\n  {advice}", t)
+        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast_drive_hint}\n  {advice}", t)
     if status in MESSAGES:
         return SolverError(MESSAGES[status].format(method=method, t=t), t)
     if status == CHATTERING:
@@ -138,7 +138,7 @@ def _build_status_error(
         known_error = _build_squeezed_film_error(compiled, e_max, p, t) or _build_dead_centre_error(
             compiled, last_state, p, t
         )
-        return known_error or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drives}\n  {advice}", t)
+        return known_error or SolverError(f"no step is small enough at t = {t:.9g} s{fast_drive_hint}\n  {advice}", t)
     if status == LOST:
         fault_at_corner = {True: "an open corner is inside its wall", False: "an open journal is outside its bearing"}
         faults = sorted({fault_at_corner[joint.is_corner] for joint in compiled.source.clearances}, reverse=True)
@@ -151,7 +151,7 @@ def _build_status_error(
         return SolverError(
             f"the run no longer advances at t = {t:.9g} s{format_drive_states(compiled, p, t)}\n  {advice}", t
         )
-    return _build_singular_error(compiled, status, t, advice, last_state, p, fast_drives)
+    return _build_singular_error(compiled, status, t, advice, last_state, p, fast_drive_hint)
 
 
 def _build_unbounded_drive_error(drive: str, t: float) -> SolverError:
@@ -165,11 +165,11 @@ def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
 
     Its advice depends on whether the scene has rigid contacts, dry friction, or forces with switching points.
     """
-    if compiled.source.rigid:
+    if compiled.source.rigid_joints:
         return SolverError(
             f"contacts collide, or open and close, without end near t = {t:.9g} s\n"
-            f"  use a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)}, which closes them"
-            " earlier",
+            f"  use a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid_joints)}, which"
+            " closes them earlier",
             t,
         )
     source = compiled.source
@@ -182,15 +182,19 @@ def _build_chattering_error(compiled: CompiledModel, t: float) -> SolverError:
 
 
 def _build_singular_error(
-    compiled: CompiledModel, status: int, t: float, advice: str, last_state: Array, p: Array, fast_drives: str
+    compiled: CompiledModel, status: int, t: float, advice: str, last_state: Array, p: Array, fast_drive_hint: str
 ) -> SolverError:
     """Build the error for a vanishing pivot of the constraint equations at t (s); status − 1 is its index.
 
-    It reports a dead centre of driven loops, a singular position, or a motion that diverged before, if the last state
-    is not finite or exceeds 1e12. `last_state`: last state (2n + 3,); `fast_drives`: text on fast drives.
+    - SingularError, dead centre: the equation belongs to driven loops.
+    - SingularError, singular position: the last state (2n + 3,) is finite and all its values are below 1e12.
+    - SingularError, dead centre: the last state is finite but larger, and its positions are within bounds.
+    - NonFiniteError, the motion diverged before: in all other cases.
+
+    `fast_drive_hint`: text on drives with high rates, or "", for the message of NonFiniteError.
     """
-    row = compiled.source.motion_pivots[status - 1]
-    if row in compiled.source.chain_rows:
+    row = compiled.source.integrated_pivots[status - 1]
+    if row in compiled.source.driven_loop_equations:
         return SingularError(
             f"the linkage reaches a dead centre at t = {t:.9g} s: at the position of its drives, constraint equation"
             f" {row} has no solution{format_drive_states(compiled, p, t)}\n"
@@ -200,7 +204,7 @@ def _build_singular_error(
             row,
         )
     try:
-        compiled.check_pivot(status, t, compiled.source.motion_pivots, p)
+        compiled.check_pivot(status, t, compiled.source.integrated_pivots, p)
     except SingularError as error:
         finite = bool(np.isfinite(last_state).all())
         if finite and np.abs(last_state).max() < 1e12:
@@ -214,7 +218,7 @@ def _build_singular_error(
         if dead_centre_error:
             return dead_centre_error
         where = f"t = {t:.9g} s (constraint equation {error.pivot})"
-        return NonFiniteError(f"the motion diverged before {where}{fast_drives}\n  {advice}", t, error.pivot)
+        return NonFiniteError(f"the motion diverged before {where}{fast_drive_hint}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} is not a failure")
 
 
@@ -245,7 +249,7 @@ def format_drive_states(compiled: CompiledModel, p: Array, t: float, min_rate: f
         values = {name: evaluate_at_times(source, p, tree, np.array([t]))[0] for name, tree in trees.items()}
     parts = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
-        for row, rate in zip(source.start_rows, rates, strict=True)
+        for row, rate in zip(source.start_equations, rates, strict=True)
         if row.kind == "drive" and row.owner in values and not abs(rate) < min_rate  # constants have no rate
     ]
     return "".join(f"; {text}" for text in parts)
@@ -382,7 +386,7 @@ def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t:
 
 
 def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> bool:
-    """Return whether all coordinates x, y of `last_state` are below 10⁴ times the mechanism's size."""
+    """Return whether all coordinates x, y of `last_state` are below 10⁴ times the mechanism's size (at least 1 mm)."""
     indices = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
     return bool(
         np.abs(np.ravel(last_state)[indices]).max(initial=0.0) < 1e4 * max(compute_mechanism_size(compiled, p), 1e-3)
@@ -451,7 +455,7 @@ def _get_location_name(source: KernelSource, check: Check, index: int) -> str:
     if check.place == "joint":
         return source.clearances[index].name
     if check.place == "row":
-        return source.start_rows[index].name
+        return source.start_equations[index].name
     if check.place == "event":
         return source.events[index].name
     if check.place == "friction":

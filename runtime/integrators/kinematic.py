@@ -79,7 +79,7 @@ class KinematicRun:
         self.motion_struct = self._allocate_motion_struct()
         self.steps = self._make_step_log(problem.observer) if problem.observer else None
         if self.steps:
-            self.steps.register_rows(self.pointer(self.motion_struct, "void *"))
+            self.steps.register_record_buffer(self.pointer(self.motion_struct, "void *"))
 
     def _allocate_motion_struct(self) -> NDArray[Any]:
         """Allocate and initialise C's struct that follows a motion, or its works, and return its bytes (an array)."""
@@ -214,7 +214,7 @@ class KinematicRun:
         last = first + int(np.searchsorted(self.t[first : end + 1], t_end - compute_time_resolution(self.problem.t)))
         self.t = np.append(self.t[:last], t_end)
         if self.steps:
-            self.steps.register_rows(self.pointer(self.motion_struct, "void *"), 0)
+            self.steps.register_record_buffer(self.pointer(self.motion_struct, "void *"), 0)
         if last > first:
             self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.motion_struct, "void *"))
             _, failed = self._compute_motion(last - 1, last)

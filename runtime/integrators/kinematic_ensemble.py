@@ -38,7 +38,7 @@ def has_kinematic_ensemble(source: KernelSource, method: str) -> bool:
     return method == "kinematic" and not source.events
 
 
-def count_kinematic_rows(n_samples: int) -> int:
+def count_runs_per_kinematic_call(n_samples: int) -> int:
     """Return how many runs of `n_samples` samples one call of C computes, so that they fit into the CPU cache.
 
     At most MAX_RUNS with MAX_SAMPLES in all; a multiple of MIN_SHARED_ROWS, and at least that, so that all lanes are

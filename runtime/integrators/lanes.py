@@ -209,7 +209,7 @@ def _derive_lane_library_source(compiled: CompiledModel, has_series: bool) -> Ke
     """
     from gudgeon.loading.engine import list_lane_declarations
 
-    main, files = compiled.source.lanes, compiled.source.files
+    main, files = compiled.source.lane_file, compiled.source.files
     if has_series:
         main, files = SERIES_MAIN, {**files, SERIES_MAIN: _SERIES_TEXT}
     return replace(compiled.source, main=main, files=files, cdef=list_lane_declarations())
@@ -233,11 +233,11 @@ def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None
     over = bool(runs.arrays["phase"][i] == OVER)
     if step_log and (over or runs.compiled.lib.gudgeon_run_has_full_buffers(run)):
         step_log.observer = runs.observers[i]
-        step_log.flush_rows(run)
+        step_log.flush_recorded_states(run)
     runs.fetch_contacts_and_events(i, run, over)
 
 
 def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:
     """Return whether the runs of a batch may use lanes: MIN_RUNS or more, a method in IN_LANES, and a C compiler."""
-    has_lanes = bool(compiled.source.lanes) and method in (*IN_LANES, KINEMATIC)
+    has_lanes = bool(compiled.source.lane_file) and method in (*IN_LANES, KINEMATIC)
     return n_runs >= MIN_RUNS and has_lanes and has_compiler()

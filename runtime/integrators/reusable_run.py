@@ -18,7 +18,7 @@ from gudgeon.integrators.times import Times
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_columns import ParameterColumns
 from gudgeon.model.sizes import (
-    compute_size_of_values,
+    compute_size_of_run,
     find_size_indices,
     find_size_parameters,
     is_clearance_unresolved,
@@ -80,10 +80,10 @@ class ReusableRun(Runs):
         source, x, p = self.compiled.source, self.arrays, self.columns.p[k]
         size_key = p.take(self._size_parameters).tobytes()
         if size_key != self._size_key:
-            self._size, self._size_key = compute_size_of_values(find_size_indices(source), p.tolist()), size_key
+            self._size, self._size_key = compute_size_of_run(find_size_indices(source), p.tolist()), size_key
         if is_clearance_unresolved(source, p, self._size):
             return False
-        x["scale"][k], x["min_size"][k] = adaptive.compute_tolerances_of_values(source, p, self._size, self.rtol)
+        x["scale"][k], x["min_size"][k] = adaptive.compute_tolerances_of_single_run(source, p, self._size, self.rtol)
         x["size"][k] = self._size
         self._tolerance_keys[k] = key
         return True
@@ -122,13 +122,13 @@ class ReusableRun(Runs):
             if result == RUN_ENDED:
                 break
             if result == BUFFERS_FULL:
-                self._discard_lists(k)
+                self._discard_contacts_and_events(k)
         status: int = self._status.item(k)
         if status == STOPPED:
             raise KeyboardInterrupt
         return status
 
-    def _discard_lists(self, k: int) -> None:
+    def _discard_contacts_and_events(self, k: int) -> None:
         """Fetch and discard C's full lists of contacts and events of the run in row k, which then continues."""
         self.fetch_contacts_and_events(k, self._integrator, False)
         self.fetched = Contacts(self.compiled)

@@ -26,7 +26,7 @@ class RunSizes(NamedTuple):
     """Hold the sizes on which the arrays of a run depend."""
 
     n_coordinates: int
-    n_memory: int
+    n_discrete_states: int
     n_clearances: int
     n_p: int
     n_integrated: int  # 0 for a time loop in Python
@@ -125,12 +125,16 @@ def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
     Names are those of C's struct Batch (engine/scene/calls.h describes them). `remembered` and `codes` are the discrete
     states and contact codes at the start.
     """
-    n_coordinates, n_memory, n_clearances = sizes.n_coordinates, max(sizes.n_memory, 1), max(sizes.n_clearances, 1)
+    n_coordinates, n_discrete_states, n_clearances = (
+        sizes.n_coordinates,
+        max(sizes.n_discrete_states, 1),
+        max(sizes.n_clearances, 1),
+    )
     return {
         "start": (np.float64, (n, 2 * n_coordinates), np.nan),
         "started": (np.uint8, (n,), 0),
         "phase": (np.uint8, (n,), 0),
-        "initial_discrete_states": (np.float64, (n, n_memory), np.nan),
+        "initial_discrete_states": (np.float64, (n, n_discrete_states), np.nan),
         "codes": (np.int8, (n, n_clearances), 0),
         "done": (np.int_, (n,), 0),
         "checked": (np.int_, (n,), 0),
@@ -173,7 +177,7 @@ def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str
         "state": (np.int8, (1, N, max(sizes.n_clearances, 1)), 0),
         "t": (np.float64, (N,), 0),
         "y": (np.float64, (1, N, 2 * sizes.n_coordinates + N_WORK), 0),
-        "discrete_states": (np.float64, (1, N, max(sizes.n_memory, 1)), 0),
+        "discrete_states": (np.float64, (1, N, max(sizes.n_discrete_states, 1)), 0),
     }
 
 

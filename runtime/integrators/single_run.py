@@ -24,7 +24,7 @@ from gudgeon.model.sizes import select_lengths
 from gudgeon.waiting.cancellation import CancellationPoll
 
 MAX_REUSED_SAMPLES = 256  # largest number of samples of a run whose arrays are reused
-MAX_FREE = 8  # largest number of unused runs of a scene that are cached, per key, and of keys
+MAX_UNUSED_RUNS = 8  # largest number of unused runs of a scene that are cached, per key, and of keys
 
 
 class SingleRun(Runs):
@@ -85,7 +85,7 @@ class SingleRun(Runs):
         x["p_motion"][0] = problem.p if problem.method == "rk4" or problem.p_motion is None else problem.p_motion
         start = x["start"][0]
         start[:n], start[n:] = problem.q, problem.v
-        if compiled.n_memory:
+        if compiled.n_discrete_states:
             x["initial_discrete_states"][0] = problem.memory
         if problem.state is not None and len(problem.state):
             x["codes"][0] = problem.state
@@ -121,7 +121,7 @@ class SingleRun(Runs):
         compiled, x, run = self.compiled, self.arrays, self._integrator
         step_log = StepLog(compiled) if self.observers else None
         if step_log:
-            step_log.register_rows(run)
+            step_log.register_record_buffer(run)
         compiled.lib.switch_library_if_ready()
         try:
             self._run_time_loop(step_log, self._poll)
@@ -151,7 +151,7 @@ class SingleRun(Runs):
                 self.fetch_contacts_and_events(0, run, status == RUN_ENDED)
                 if step_log:
                     step_log.observer = self.observers[0]
-                    step_log.flush_rows(run)
+                    step_log.flush_recorded_states(run)
                 current[0] = status == RUN_ENDED
             poll()
 
@@ -165,15 +165,17 @@ class SingleRun(Runs):
 
         Raises KeyboardInterrupt.
         """
-        problem, x, b = self._problem, self.arrays, self.struct
+        problem, arrays, struct = self._problem, self.arrays, self.struct
         assert problem
         self.compiled.lib.switch_library_if_ready()
         problem.poll_cancellation()
         if problem.progress:
             t = problem.t
-            if x["phase"][0] == BEGUN:
-                self.compiled.lib.gudgeon_run_report(self._integrator, b.t_last, b.counts, b.residuals, b.peaks)
-            fraction = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
+            if arrays["phase"][0] == BEGUN:
+                self.compiled.lib.gudgeon_run_report(
+                    self._integrator, struct.t_last, struct.counts, struct.residuals, struct.peaks
+                )
+            fraction = (arrays["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
             problem.progress(float(min(max(fraction, 0.0), 1.0)), "integrating")
 
 
@@ -194,7 +196,7 @@ def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -
         run.is_reused = True
     trajectory = run.integrate(problem)
     run.release_problem()
-    if len(free) < MAX_FREE:
+    if len(free) < MAX_UNUSED_RUNS:
         free.append(run)
     return trajectory
 
@@ -202,10 +204,11 @@ def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -
 def _get_reusable_runs(problem: Problem) -> list[SingleRun]:
     """Return the scene's list of unused runs whose sizes and settings fit a problem, for callers to take from.
 
-    A new list is added to the cache for other sizes or settings; if the cache has MAX_FREE lists, it is cleared first.
+    A new list is added to the cache for other sizes or settings; if the cache has MAX_UNUSED_RUNS lists, it is cleared
+    first.
     """
-    free_runs, is_fixed = problem.compiled.free_runs, math.isfinite(problem.step)
+    unused_runs, is_fixed = problem.compiled.unused_runs, math.isfinite(problem.step)
     key = len(problem.t), problem.method, problem.rtol, is_fixed, problem.stop, problem.audit
-    if key not in free_runs and len(free_runs) >= MAX_FREE:
-        free_runs.clear()
-    return free_runs.setdefault(key, [])
+    if key not in unused_runs and len(unused_runs) >= MAX_UNUSED_RUNS:
+        unused_runs.clear()
+    return unused_runs.setdefault(key, [])

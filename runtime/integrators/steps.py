@@ -27,7 +27,7 @@ class Steps:
     q: Array  # (k, n)
     v: Array
     work: Array  # (k, 3)
-    memory: Array  # (k, n_memory)
+    memory: Array  # (k, n_discrete_states)
     state: NDArray[Any]  # (k, n_clearances) int8
     is_after_jump: NDArray[np.bool_]  # (k,) whether the run began or a quantity jumped since the row before
 
@@ -53,14 +53,14 @@ class StepLog:
     def __init__(self, compiled: CompiledModel, observer: StepCallback | None = None) -> None:
         self.compiled, self.observer = compiled, observer
         joints = len(compiled.source.clearances)
-        self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
+        self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_discrete_states, 1), max(joints, 1))
         self.rows = np.zeros((N_ROWS_OF_BLOCK, sum(self.widths)))
 
-    def register_rows(self, run: Any) -> None:
+    def register_record_buffer(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, is_written=True), len(self.rows))
 
-    def flush_rows(self, run: Any) -> None:
+    def flush_recorded_states(self, run: Any) -> None:
         """Pass copies of the states that C's integrator has written since the last call to the observer; clear them.
 
         Without an observer, the states are discarded.
@@ -82,7 +82,7 @@ class StepLog:
             y[:, :n],
             y[:, n : 2 * n],
             y[:, 2 * n :],
-            discrete_states[:, : self.compiled.n_memory],
+            discrete_states[:, : self.compiled.n_discrete_states],
             state[:, :joints].astype(np.int8),
             head[:, RECORD_JUMPED] > 0.0,
         )
@@ -127,7 +127,7 @@ class KinematicStepLog:
         self.works = allocate_struct()  # a separate struct of C for the works
         observer(first)
 
-    def register_rows(self, motion_struct: Any, rows: int = N_ROWS_OF_BLOCK) -> None:
+    def register_record_buffer(self, motion_struct: Any, rows: int = N_ROWS_OF_BLOCK) -> None:
         """Make C record the states of the motion in the first `rows` rows from now on; with 0, end the recording."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, is_written=True)
         lib.gudgeon_kinematic_set_recording(motion_struct, where if rows else self.compiled.ffi.NULL, rows)

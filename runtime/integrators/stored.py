@@ -31,8 +31,8 @@ from gudgeon.integrators.run_arrays import RunSizes, SingleRunArrays, make_run_a
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import (
     IMPACT_DTYPE,
+    MAX_ENVELOPE_ROWS,
     NO_CHANGE_POINTS,
-    TRACE_ROWS,
     Counts,
     Envelope,
     Trajectory,
@@ -173,7 +173,7 @@ class StoredRuns:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
         n, N, nc = self.n, times.max_count, len(compiled.source.clearances)
         n_integrated = 0 if in_python else len(find_integrated_angles(compiled.source))
-        sizes = RunSizes(compiled.n, compiled.n_memory, nc, compiled.n_p, n_integrated, N)
+        sizes = RunSizes(compiled.n, compiled.n_discrete_states, nc, compiled.n_p, n_integrated, N)
         self.arrays: dict[str, NDArray[Any]]
         if n == 1:
             self.arrays = x = SingleRunArrays.allocate(sizes)
@@ -184,7 +184,7 @@ class StoredRuns:
                 "p_motion": p_motion,
                 "step": step,
                 "y": np.empty((n_rows, N, 2 * compiled.n + N_WORK)),
-                "discrete_states": np.empty((n_rows, N, max(compiled.n_memory, 1))),
+                "discrete_states": np.empty((n_rows, N, max(compiled.n_discrete_states, 1))),
                 "state": np.zeros((n_rows, N, max(nc, 1)), np.int8),
             }
             self.arrays["sample_block"][:] = np.arange(n) % n_rows
@@ -202,10 +202,10 @@ class StoredRuns:
     def allocate_envelope(self) -> None:
         """Allocate the envelope of forces and paths, and register it with C, so that new runs record it for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
-        x["envelope"] = np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints)))
+        x["envelope"] = np.empty((self.n, MAX_ENVELOPE_ROWS, compute_envelope_width(joints)))
         self.struct.envelope, self.struct.envelope_capacity = (
             self.compiled.pointer(x["envelope"], is_written=True),
-            TRACE_ROWS,
+            MAX_ENVELOPE_ROWS,
         )
 
     def _join_contacts(self) -> None:
@@ -234,7 +234,7 @@ class StoredRuns:
             (slice(2 * n, None), trajectory.work),
         ):
             x["y"][k, :N, columns] = values
-        x["discrete_states"][k, :N, : self.compiled.n_memory] = trajectory.memory
+        x["discrete_states"][k, :N, : self.compiled.n_discrete_states] = trajectory.memory
         x["state"][k, :N, : trajectory.state.shape[1]] = trajectory.state
         if trajectory.a is not None:
             x["a"][k, :N] = trajectory.a
@@ -318,7 +318,7 @@ class StoredRuns:
         """Return the samples of run i as `get_samples`, as views of `arrays`, which may be a copy of the arrays."""
         compiled, k, t = self.compiled, self.arrays["sample_block"].item(i), self.get_reached_times(i)
         N, joints = len(t), len(compiled.source.clearances)
-        memory, state = arrays["discrete_states"][k, :N, : compiled.n_memory], arrays["state"][k, :N, :joints]
+        memory, state = arrays["discrete_states"][k, :N, : compiled.n_discrete_states], arrays["state"][k, :N, :joints]
         return t, arrays["y"][k, :N], memory, state
 
     def get_accelerations(self, i: int) -> Array | None:
@@ -327,7 +327,10 @@ class StoredRuns:
         return None if a is None else a[self.arrays["sample_block"][i], : self.arrays["done"][i]]
 
     def get_reached_times(self, i: int) -> Array:
-        """Return a copy of the sample times (s) that run i reached; if it ended early, the last one is its end."""
+        """Return a copy of the sample times (s) that run i reached.
+
+        If an event, Ctrl-C or a stall ended it, the last one is the time of its end.
+        """
         done = self.arrays["done"].item(i)
         t = self.times.get_times(i)[:done].copy()
         if done and self.arrays["status"].item(i) in (ENDED, STOPPED, STALLED):
@@ -397,7 +400,7 @@ class _TrajectoryParts:
         self.contacts, self.found, self.envelope = impacts, events, envelope
 
     def copy_rows(self) -> None:
-        """Copy the rows of the run, so that its fields are not views of the arrays of a batch."""
+        """Copy the run's rows of all arrays, so that its fields are not views of the arrays of a batch."""
         x, k, i = self.arrays, self.k, self.i
         self.arrays = {name: x[name][k : k + 1, : self.n_samples].copy() for name in ("y", "discrete_states", "state")}
         names = "peaks", "counts", "residuals", "audit_values", "audit_times", "audit_locations"
@@ -421,8 +424,8 @@ class _TrajectoryParts:
         return self._view_motion(2 * self.compiled.n, 2 * self.compiled.n + N_WORK)
 
     def memory(self) -> Array:
-        """Return the discrete states (N, n_memory)."""
-        return self.arrays["discrete_states"][self.k, : self.n_samples, : self.compiled.n_memory]
+        """Return the discrete states (N, n_discrete_states)."""
+        return self.arrays["discrete_states"][self.k, : self.n_samples, : self.compiled.n_discrete_states]
 
     def state(self) -> NDArray[Any]:
         """Return the contact codes (N, n_clearances)."""

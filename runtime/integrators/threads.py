@@ -102,7 +102,7 @@ def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thr
         thread_index * runs.n_rows_per_thread,
     )
     for storage, step_log in zip(storages, step_logs, strict=False):
-        step_log.register_rows(runs.compiled.pointer(storage, "void *"))
+        step_log.register_record_buffer(runs.compiled.pointer(storage, "void *"))
     first_log = step_logs[0] if step_logs else None
     while portions and not runs.is_stopping:
         if runs.lane_provider and (lanes := runs.lane_provider.get_lanes(runs)):

@@ -37,7 +37,7 @@ IMPACT_DTYPE = np.dtype(
 NO_CHANGE_POINTS = 0, float("nan")
 Progress: TypeAlias = Callable[[float, str], None]  # called with the fraction done, and what is being done
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, time in s
-TRACE_ROWS = 4096  # largest number of rows of an envelope; it is even
+MAX_ENVELOPE_ROWS = 4096  # largest number of rows of an envelope; it is even
 TRACED = {
     "F_low": ("N", "smallest force since the previous row"),
     "t_F_low": ("s", "time of F_low"),
@@ -55,9 +55,13 @@ EPSILON = float(np.finfo(np.float64).eps)
 
 
 @cache
-def build_event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
+def build_event_dtype(n: int, n_discrete_states: int, n_clearances: int) -> np.dtype[Any]:
     """Return NumPy's type of a user event with its state: y is q, v (n each) and the works; cached by sizes."""
-    state_fields = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
+    state_fields = [
+        ("y", "f8", (2 * n + N_WORK,)),
+        ("memory", "f8", (n_discrete_states,)),
+        ("state", "i1", (n_clearances,)),
+    ]
     return np.dtype([("event", "i4"), ("t", "f8"), *state_fields])
 
 
@@ -208,19 +212,22 @@ def compute_time_resolution(t: Array) -> float:
 
 def make_empty_event_states(compiled: CompiledModel) -> NDArray[Any]:
     """Return an empty array of events with states (build_event_dtype)."""
-    return np.zeros(0, dtype=build_event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
+    return np.zeros(0, dtype=build_event_dtype(compiled.n, compiled.n_discrete_states, len(compiled.source.clearances)))
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
     """Fetch and clear C's list of user events of a run, and return them with states (build_event_dtype).
 
-    Events at the start are left out. `run`: C's integrator; `times`: output times of the run. An index k beyond the
-    scene's n events means that event k − n is not a number from that time on.
+    The fields are the event's index, its time t (s), the state y, the discrete states (field "memory") and the contact
+    codes (field "state"). Events at the start are left out. `run`: C's integrator; `times`: output times of the run. An
+    index k beyond the scene's n events means that event k − n is not a number from that time on.
     """
-    joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
-    t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
-    y, discrete_states = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
-    state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
+    n_joints, n_rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
+    t, event = np.zeros(n_rows), np.zeros(n_rows, dtype=np.intc)
+    y, discrete_states = (
+        np.zeros((n_rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_discrete_states)
+    )
+    state = np.zeros((n_rows, max(n_joints, 1)), dtype=np.int8)
     arrays = (
         compiled.pointer(t),
         compiled.pointer(event, "int *"),
@@ -228,14 +235,15 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         compiled.pointer(discrete_states),
         compiled.pointer(state, "signed char *"),
     )
-    parts, count = [make_empty_event_states(compiled)], rows
-    while count == rows:
-        count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
-        part = np.zeros(count, dtype=parts[0].dtype)
-        part["event"], part["t"], part["y"] = event[:count], t[:count], y[:count]
-        part["memory"], part["state"] = discrete_states[:count, : compiled.n_memory], state[:count, :joints]
-        parts.append(part)
-    fetched = np.concatenate(parts)
+    blocks, count = [make_empty_event_states(compiled)], n_rows
+    while count == n_rows:
+        count = compiled.lib.gudgeon_run_events(run, n_rows, *arrays)
+        block = np.zeros(count, dtype=blocks[0].dtype)
+        block["event"], block["t"], block["y"] = event[:count], t[:count], y[:count]
+        block["memory"] = discrete_states[:count, : compiled.n_discrete_states]
+        block["state"] = state[:count, :n_joints]
+        blocks.append(block)
+    fetched = np.concatenate(blocks)
     is_undefined = fetched["event"] >= len(compiled.source.events)
     return fetched[is_undefined | (fetched["t"] > times[0] + compute_time_resolution(times))]
 

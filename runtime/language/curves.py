@@ -366,9 +366,9 @@ def compute_monotone_slopes(
 
 
 def _compute_harmonic_mean(a: float, b: float, p: float, q: float) -> float:
-    """Return the slope of a monotone cubic at a knot between pieces of lengths a, b and mean slopes p, q.
+    """Return the slope of a monotone cubic (PCHIP) at a knot between pieces of lengths a, b and mean slopes p, q.
 
-    It is 0 if p and q have different signs.
+    It is their weighted harmonic mean, and 0 if p and q have different signs.
     """
     if p * q <= 0.0:
         return 0.0
@@ -377,9 +377,10 @@ def _compute_harmonic_mean(a: float, b: float, p: float, q: float) -> float:
 
 
 def _compute_end_slope(a: float, b: float, p: float, q: float) -> float:
-    """Return the limited slope at the end of piece (a, p), from the parabola through it and its neighbour (b, q).
+    """Return the limited slope at the end of a monotone cubic (PCHIP), from the parabola through the last three points.
 
-    a, b: lengths. p, q: mean slopes. It is 0 if its sign differs from that of p, and at most 3 p at an extremum.
+    a, b: lengths of the outer piece and of its neighbour; p, q: their mean slopes. It is 0 if its sign differs from
+    that of p, and at most 3 p at an extremum (p and q of different signs).
     """
     slope = ((2.0 * a + b) * p - a * q) / (a + b)
     if slope * p <= 0.0:

@@ -90,7 +90,11 @@ def _derive_exponents(expression: Expr, get_unit: Callable[[str], str | None]) -
 
 
 def _derive_call_exponents(function: Function, arguments: list[Exponents | None]) -> Exponents | None:
-    """Return the exponents of a function's value from those of its arguments; None if it fits any unit."""
+    """Return the exponents of a function's value from those of its arguments; None if it fits any unit.
+
+    A square root halves them. Functions such as max, and both branches of `where`, keep them. The value of all other
+    functions is an angle in rad or a pure number.
+    """
     if function.units is Units.ROOT:
         return _scale_exponents(arguments[0], Fraction(1, 2))
     if function.units in (Units.SAME, Units.CHOICE):

@@ -18,15 +18,15 @@ DEFINED = select_function_names(lambda f: f.is_total)  # functions that are fini
 DIVIDING = select_function_names(lambda f: f.divides)  # functions that divide by their last argument
 
 
-def is_total_expression(expr: Expr) -> bool:
+def is_defined_everywhere(expr: Expr) -> bool:
     """Return whether no part of an expression can be undefined: it has only sums, products and total functions."""
     match expr:
         case Unary(operand=operand):
-            return is_total_expression(operand)
+            return is_defined_everywhere(operand)
         case Binary(operator=operator, left=left, right=right):
-            return operator in ("+", "-", "*") and is_total_expression(left) and is_total_expression(right)
+            return operator in ("+", "-", "*") and is_defined_everywhere(left) and is_defined_everywhere(right)
         case Call(arguments=arguments):
-            return list_functions(expr) <= DEFINED and all(map(is_total_expression, arguments))
+            return list_functions(expr) <= DEFINED and all(map(is_defined_everywhere, arguments))
     return True
 
 

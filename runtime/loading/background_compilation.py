@@ -27,32 +27,32 @@ if TYPE_CHECKING:
     import subprocess
 
 
-def build_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
+def build_command_lines(source: KernelSource, portable: bool, unoptimized: bool = False) -> dict[str, tuple[str, ...]]:
     """Return the compiler's command line for each object file of a scene's code without the engine, by file name.
 
-    A scene is compiled in one part, or in the parts of `source.units`. `quick`: without optimization.
+    A scene is compiled in one part, or in the parts of `source.compilation_units`. `unoptimized`: without optimization.
     """
-    if source.cdef or not source.units:
+    if source.cdef or not source.compilation_units:
         unit = "lanes" if source.cdef else ""
-        return {"scene.o": build_unit_command(portable, [source.main], "scene.o", quick, unit)}
-    return dict(_build_unit_command(unit, portable, quick) for unit in source.units)
+        return {"scene.o": build_unit_command(portable, [source.main], "scene.o", unoptimized, unit)}
+    return dict(_build_unit_command(unit, portable, unoptimized) for unit in source.compilation_units)
 
 
-def _build_unit_command(unit: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
+def _build_unit_command(unit: int, portable: bool, unoptimized: bool) -> tuple[str, tuple[str, ...]]:
     """Return the name of the object file of part `unit` of a scene, and the compiler's command line for it."""
     name = f"scene_{unit}.o"
-    return name, build_unit_command(portable, [f"-DPART={unit}", MAIN], name, quick)
+    return name, build_unit_command(portable, [f"-DPART={unit}", MAIN], name, unoptimized)
 
 
 class BackgroundCompilation:
     """Compile parts of a library in the background; a context at whose end all compilers are stopped.
 
-    Errors are ignored here: the library is then built without these parts, which raises them. quick: compile without
-    optimization (loading/optimized_library.py).
+    Errors are ignored here: the library is then built without these parts, which raises them. unoptimized: compile
+    without optimization (loading/optimized_library.py).
     """
 
-    def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:
-        self._portable, self._cache, self._quick, self._programs = portable, cache, quick, Programs()
+    def __init__(self, portable: bool, cache: Cache | None = None, unoptimized: bool = False) -> None:
+        self._portable, self._cache, self._unoptimized, self._programs = portable, cache, unoptimized, Programs()
         self._folder: Path | None = None
         self._compilations: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
@@ -68,9 +68,9 @@ class BackgroundCompilation:
         """
         try:
             if unit == ENGINE_PART:
-                self.start_shared_object(self._find_engine_object(texts[HEADER], self._quick))
+                self.start_shared_object(self._find_engine_object(texts[HEADER], self._unoptimized))
             else:
-                self._start_compilation(*_build_unit_command(unit, self._portable, self._quick), texts)
+                self._start_compilation(*_build_unit_command(unit, self._portable, self._unoptimized), texts)
         except (GudgeonError, OSError):
             return
 
@@ -82,16 +82,16 @@ class BackgroundCompilation:
         if header and (os.cpu_count() or 1) > 1:
             self.start_unit_compilation(ENGINE_PART, {HEADER: header})
 
-    def list_shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
+    def list_shared_objects(self, source: KernelSource, unoptimized: bool = False) -> list[SharedObject]:
         """Return the object files that a scene shares with others: that of the engine; [] for a library of lanes."""
-        return [] if source.cdef else [self._find_engine_object(source.files[HEADER], quick)]
+        return [] if source.cdef else [self._find_engine_object(source.files[HEADER], unoptimized)]
 
-    def _find_engine_object(self, header: str, quick: bool) -> SharedObject:
-        """Return the engine's object file; a quick library uses the optimized one if the cache has it."""
+    def _find_engine_object(self, header: str, unoptimized: bool) -> SharedObject:
+        """Return the engine's object file; an unoptimized library uses the optimized one if the cache has it."""
         engine = describe_engine_object(header, self._portable)
-        if not quick or engine.is_cached(self._portable, self._cache or get_default_cache()):
+        if not unoptimized or engine.is_cached(self._portable, self._cache or get_default_cache()):
             return engine
-        return describe_engine_object(header, self._portable, quick=True)
+        return describe_engine_object(header, self._portable, unoptimized=True)
 
     def start_shared_object(self, shared_object: SharedObject) -> None:
         """Start to compile a shared object file unless it is being compiled or the cache has it.
@@ -219,12 +219,12 @@ class SharedObject:
         return cache.fetch(self.kind, self.compute_key(portable, cache), compile_object, renew=renew) / self.name
 
 
-def describe_engine_object(header: str, portable: bool, quick: bool = False) -> SharedObject:
+def describe_engine_object(header: str, portable: bool, unoptimized: bool = False) -> SharedObject:
     """Return the description of the time loops' object file for a scene with this model.h.
 
     The engine reads only the part of the header before its values, so that scenes of equal sizes share the file.
     """
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]
-    command_line = build_unit_command(portable, [str(UNIT)], "engine.o", quick, "loops")
+    command_line = build_unit_command(portable, [str(UNIT)], "engine.o", unoptimized, "loops")
     return SharedObject("engines", "engine.o", command_line, (read, compute_engine_digest()), {HEADER: read})

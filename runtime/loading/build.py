@@ -60,7 +60,7 @@ def compile_kernels(
             loaded.lib.wait_for_optimized_library()
         return loaded
 
-    def build(folder: Path, quick: bool = False, background: BackgroundCompilation | None = background) -> None:
+    def build(folder: Path, unoptimized: bool = False, background: BackgroundCompilation | None = background) -> None:
         """Build the library in a folder, and report that this takes a while.
 
         `background`: a compilation whose parts are reused; None: all parts are compiled here.
@@ -69,7 +69,7 @@ def compile_kernels(
             report_work(f"compiling {source.mechanism}, scene {source.scene}"),
             BackgroundCompilation(portable, cache) as no_background,
         ):
-            _build_library(source, folder, portable, background or no_background, cache, rebuild, quick)
+            _build_library(source, folder, portable, background or no_background, cache, rebuild, unoptimized)
 
     library = _compile_unoptimized_library(source, portable, cache, key, build) if quick and not rebuild else None
     if library is None:
@@ -94,7 +94,7 @@ def _compile_unoptimized_library(
     if not may_compile_in_background(cache) or cache.has_folder("libraries", key):
         return None
     command = compiler.find_compiler()
-    flags = (*compiler.build_flags(portable, command, quick=True), *compiler.build_link_flags())
+    flags = (*compiler.build_flags(portable, command, unoptimized=True), *compiler.build_link_flags())
     library_key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
     if cache.has_folder(UNOPTIMIZED_KIND, library_key):
         return None
@@ -218,7 +218,7 @@ def _build_library(
     background: BackgroundCompilation,
     cache: Cache,
     renew: bool,
-    quick: bool,
+    unoptimized: bool,
 ) -> None:
     """Write the C files into the folder, compile the scene's own parts, and link them with the shared object files.
 
@@ -227,7 +227,7 @@ def _build_library(
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    command_lines = build_command_lines(source, portable, quick)
+    command_lines = build_command_lines(source, portable, unoptimized)
     parts_in_background = {
         name
         for name, command_line in command_lines.items()
@@ -239,7 +239,7 @@ def _build_library(
             for name, command_line in command_lines.items()
             if name not in parts_in_background
         ]
-        shared = background.list_shared_objects(source, quick)
+        shared = background.list_shared_objects(source, unoptimized)
         for part in shared:
             background.start_shared_object(part)
         objects = [str(part.fetch_file(portable, cache, background, renew)) for part in shared]

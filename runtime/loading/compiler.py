@@ -74,17 +74,17 @@ DISK_FULL_MESSAGES = {
 }
 
 
-def build_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
+def build_flags(portable: bool, command: tuple[str, ...] = (), unoptimized: bool = False) -> tuple[str, ...]:
     """Return the compiler's flags for a command; `portable` leaves out those that bind the library to this CPU.
 
-    quick: no optimization; the compiler then needs a third of the time. Results are the same, since the order of sums
-    is the same at every level.
+    unoptimized: no optimization (-O0); the compiler then needs a third of the time. Results are the same, since the
+    order of sums is the same at every level. Zig and unoptimized compilations do not get GCC_FLAGS.
     """
     machine = os.uname().machine
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
     named: tuple[str, ...] = FLAGS
-    if quick or _is_zig(command):
-        named = tuple(("-O0" if quick and flag == "-O2" else flag) for flag in FLAGS if flag not in GCC_FLAGS)
+    if unoptimized or _is_zig(command):
+        named = tuple(("-O0" if unoptimized and flag == "-O2" else flag) for flag in FLAGS if flag not in GCC_FLAGS)
     return (*named, *(() if portable else (native,)))
 
 
@@ -220,14 +220,14 @@ def build_environment() -> dict[str, str]:
 
 
 def build_unit_command(
-    portable: bool, files: Sequence[str], output_file: str, quick: bool = False, unit: str = ""
+    portable: bool, files: Sequence[str], output_file: str, unoptimized: bool = False, unit: str = ""
 ) -> tuple[str, ...]:
     """Return the command line that compiles `files` to the object file `output_file`, with hidden symbols.
 
-    `unit` adds flags as in `_add_unit_flags`; `quick`: without optimization.
+    `unit` adds flags as in `_add_unit_flags`; `unoptimized`: without optimization.
     """
     command = find_compiler()
-    options = _add_unit_flags(build_flags(portable, command, quick), unit)
+    options = _add_unit_flags(build_flags(portable, command, unoptimized), unit)
     return (*command, *options, "-fvisibility=hidden", *build_include_flags(), "-c", *files, "-o", output_file)
 
 

@@ -1,8 +1,8 @@
 """Compile the optimized library of a new scene in another process, while runs use an unoptimized one.
 
-The quick library is compiled from the same texts, without optimization. The compiler needs a third of the time; runs
-give the same bits and take up to three times as long. A separate process (`make_optimized_library`), which may outlive
-this one, compiles the optimized library into the cache. Runs continue with it as soon as it exists.
+The unoptimized library is compiled from the same texts. The compiler needs a third of the time; runs give the same bits
+and take up to three times as long. A separate process (`compile_optimized_library`), which may outlive this one,
+compiles the optimized library into the cache. Runs continue with it as soon as it exists.
 
 The optimized library is awaited if that process cannot be started or has failed before, if the cache is temporary, or
 with GUDGEON_QUICK=0.
@@ -29,12 +29,12 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 if TYPE_CHECKING:
     import subprocess
 
-UNOPTIMIZED_KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
+UNOPTIMIZED_KIND = "quick"  # of cache entries: the unoptimized library, and the source that the other process compiles
 SOURCE = "source.json"
 # program of the other process
 PROGRAM = (
     "import sys; sys.path[:] = sys.argv[2:]; from gudgeon.loading.optimized_library import "
-    "make_optimized_library; make_optimized_library(sys.argv[1])"
+    "compile_optimized_library; compile_optimized_library(sys.argv[1])"
 )
 NICENESS = 5  # lower priority of the other process, since the run is more urgent
 MAX_PROCESSES = 4  # largest number of such processes at once
@@ -127,11 +127,11 @@ class OptimizedLibrary:
             functions.replace_functions(self._open(entry).lib)
 
 
-def make_optimized_library(request: str) -> None:
+def compile_optimized_library(request: str) -> None:
     """Compile the optimized library into the cache, with low priority; called in the other process.
 
-    `request`: JSON of cache folder, cache entry of the quick library and `portable`. One such process compiles at a
-    time. Errors are reported at the next start.
+    `request`: JSON of cache folder, cache entry of the unoptimized library and `portable`. Nothing is compiled if that
+    entry is incomplete. One such process compiles at a time. Errors are reported at the next start.
     """
     from filelock import FileLock
 

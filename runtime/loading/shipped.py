@@ -25,7 +25,7 @@ def list_shipped_mechanisms() -> tuple[str, ...]:
     return tuple(sorted(path.stem for folder in (MECHANISMS, GALLERY) for path in folder.glob("*.yaml")))
 
 
-def list_generated() -> tuple[str, ...]:
+def list_generated_scenes() -> tuple[str, ...]:
     """Return the names of the mechanisms whose C comes with gudgeon too, sorted."""
     return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
 

@@ -49,7 +49,7 @@ def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
 
     section_name, name, role, key = [*address.split("."), "", "", "", ""][:4]
     contact = f"{section_name}.{name}."
-    if section_name != "contacts" or not any(parameter.address.startswith(contact) for parameter in source.slots):
+    if section_name != "contacts" or not any(parameter.address.startswith(contact) for parameter in source.parameters):
         return "", ""
     if key not in ("law", *(option.name for law in find_laws_of_role(role).values() for option in law.options)):
         return "", ""
@@ -65,11 +65,13 @@ def explain_named_expression(source: KernelSource, address: str) -> tuple[str, s
     The hint names the parameters on which the expression depends.
     """
     full_address = f"expressions.{address.removeprefix('expressions.')}"
-    expression = next((expression for expression in source.expressions if expression.address == full_address), None)
+    expression = next(
+        (expression for expression in source.named_expressions if expression.address == full_address), None
+    )
     if expression is None:
         return "", ""
     names_in_expression = dict.fromkeys(name.path for name in iterate_names(from_json(json.loads(expression.tree))))
-    parameter_addresses = {parameter.address for parameter in source.slots}
+    parameter_addresses = {parameter.address for parameter in source.parameters}
     parameters_in_expression = ", ".join(
         name for name in names_in_expression if f"parameters.{name}" in parameter_addresses
     )
@@ -103,7 +105,7 @@ def format_values_of_runs(parameter: RuntimeParameter, values: Array) -> Any:
 @cache_by_values
 def find_choices(source: KernelSource) -> tuple[int, ...]:
     """Return the indices of the parameters that are choices: those with words."""
-    return tuple(k for k, parameter in enumerate(source.slots) if parameter.words)
+    return tuple(k for k, parameter in enumerate(source.parameters) if parameter.words)
 
 
 def fill_in_chosen_values(
@@ -114,10 +116,13 @@ def fill_in_chosen_values(
     These values are those of the chosen materials in p, unless they are given themselves: E of "bronze" for
     bearings.pin.journal_material.E.
     """
-    index_by_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    index_by_address = {parameter.address: k for k, parameter in enumerate(source.parameters)}
     values, mask = given_values.copy(), is_given.copy()
     for k in choice_indices:
-        material, prefix = format_parameter(source.slots[k], float(given_values[k])), f"{source.slots[k].address}."
+        material, prefix = (
+            format_parameter(source.parameters[k], float(given_values[k])),
+            f"{source.parameters[k].address}.",
+        )
         for address, dependent in index_by_address.items():
             if address.startswith(prefix) and not is_given[dependent]:
                 values[dependent], mask[dependent] = (
@@ -134,7 +139,7 @@ def make_choice_notes(source: KernelSource, given_values: Array, is_given: Array
     """
     notes = []
     for k in find_choices(source):
-        parameter = source.slots[k]
+        parameter = source.parameters[k]
         if is_given[k] and given_values[k] != parameter.default:
             word, scene_word = (
                 format_parameter(parameter, float(given_values[k])),

@@ -48,14 +48,14 @@ class CompiledModel:
         self.source, self.portable = source, portable  # whether libraries of this scene are compiled portably
         self.text = text  # of the mechanism's file
         self.__dict__.update(lib=library.lib, ffi=library.ffi)
-        self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
-        self.n_memory = source.n_memory
-        self._free_contact_states = np.full(max(self.n_memory, 1), np.nan)
+        self.n, self.n_p = len(source.coordinates), len(source.parameters) + len(source.derived)
+        self.n_discrete_states = source.n_discrete_states
+        self._free_contact_states = np.full(max(self.n_discrete_states, 1), np.nan)
         self._free_contact_states.flags.writeable = False
         self._choices = find_choices(source)
-        self.free_runs: dict[Any, list[Any]] = {}  # unused runs with their arrays (integrators/single_run.py)
-        closed = [row.name for row in source.start_rows]
-        self._open_play_rows = np.array([closed.index(row.name) for row in source.rows], dtype=int)
+        self.unused_runs: dict[Any, list[Any]] = {}  # unused runs with their arrays (integrators/single_run.py)
+        closed = [row.name for row in source.start_equations]
+        self._open_play_rows = np.array([closed.index(row.name) for row in source.equations], dtype=int)
 
     @cached_property
     def lib(self) -> Any:
@@ -88,11 +88,14 @@ class CompiledModel:
 
         False without masses, for redundant constraints, and for drives with `mod`.
         """
-        return not (self.source.massless or self.source.indeterminate or self.has_mod_in_drives)
+        return not (self.source.massless_bodies or self.source.indeterminate or self.has_mod_in_drives)
 
     @cached_property
     def may_drive_acceleration_jump(self) -> bool:
-        """Return whether an acceleration that a drive prescribes may jump."""
+        """Return whether an acceleration that a drive prescribes may jump, as `may_acceleration_jump` finds it.
+
+        The sample at a jump then stores the left limit of the accelerations (left_limit.py).
+        """
         from gudgeon.model.left_limit import may_acceleration_jump
 
         return may_acceleration_jump(self)
@@ -128,7 +131,7 @@ class CompiledModel:
 
         left_out = "lib", "ffi", CACHED_VALUES
         attributes = {name: value for name, value in self.__dict__.items() if name not in left_out}
-        return attributes | {"free_runs": {}, "declarations": declared.SHA256}
+        return attributes | {"unused_runs": {}, "declarations": declared.SHA256}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the pickled state. Raises GudgeonError if a version with other arrays has written it."""
@@ -154,7 +157,7 @@ class CompiledModel:
         Parameters that are not given get their defaults. If a choice is given, C is called twice: the first call
         computes the values of the chosen material. Nothing is checked except shapes (ArrayError).
         """
-        shape = (len(self.source.slots),)
+        shape = (len(self.source.parameters),)
         values, mask = as_c_array(given, "given", shape), as_c_array(is_given, "is_given", shape, dtype=FLAG)
         p, given_choices = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
         for is_last_call in (False, True) if given_choices else (True,):  # materials have values of this run
@@ -173,16 +176,16 @@ class CompiledModel:
 
         Parameters with an index in `zero_indices` are 0. RUNS_PER_CALL runs are computed at a time.
         """
-        shape, p = (None, len(self.source.slots)), np.empty((len(given), self.n_p))
+        shape, p = (None, len(self.source.parameters)), np.empty((len(given), self.n_p))
         for rows in (slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)):
             values = as_c_array(given[rows], "given", shape, always_copy=True)
             mask = as_c_array(is_given[rows], "is_given", shape, dtype=FLAG, always_copy=True)
             if zero_indices:
                 values[:, zero_indices], mask[:, zero_indices] = 0.0, True
-            self.prepare_rows(values, mask, p[rows])
+            self.prepare_runs_in_place(values, mask, p[rows])
         return p
 
-    def prepare_rows(self, values: Array, mask: NDArray[np.uint8], p: Array) -> None:
+    def prepare_runs_in_place(self, values: Array, mask: NDArray[np.uint8], p: Array) -> None:
         """Compute values p (n, n_parameters + n_derived) from arrays (n, n_parameters) in the layout of C, in place.
 
         Runs are computed one by one if a choice is given.
@@ -201,12 +204,12 @@ class CompiledModel:
         return out
 
     def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return the residuals Φ with every joint closed (no play, e = 0), in the order of source.start_rows."""
+        """Return the residuals Φ with every joint closed (no play, e = 0), in the order of source.start_equations."""
         return self._evaluate_constraint_function("gudgeon_phi", t, p, q)
 
     def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Return the Jacobian Φ_q with every joint closed (no play, e = 0), (number of start_rows, n)."""
-        out = np.empty((len(self.source.start_rows), self.n))
+        out = np.empty((len(self.source.start_equations), self.n))
         self.lib.gudgeon_phi_q(
             check_time(t),
             self._make_coordinate_pointer(q, "q"),
@@ -216,11 +219,11 @@ class CompiledModel:
         return out
 
     def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return ν = −Φ_t with every joint closed (no play), in the order of source.start_rows."""
+        """Return ν = −Φ_t with every joint closed (no play), in the order of source.start_equations."""
         return self._evaluate_constraint_function("gudgeon_nu", t, p, q)
 
     def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return the residuals Φ(q, t), (m,), of the constraint equations source.rows."""
+        """Return the residuals Φ(q, t), (m,), of the constraint equations source.equations."""
         return self.closed_phi(t, q, p)[self._open_play_rows]
 
     def phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
@@ -236,7 +239,7 @@ class CompiledModel:
         return self.closed_gamma(t, q, v, p)[self._open_play_rows]
 
     def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
-        """Return γ with all joints without play, in the order of source.start_rows."""
+        """Return γ with all joints without play, in the order of source.start_equations."""
         return self._evaluate_constraint_function("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
@@ -244,7 +247,7 @@ class CompiledModel:
 
         Each is an array (number of coordinates,) in the order of source.start_guess, start_set and start_rates.
         """
-        s, n_held_open = self.source, len(self.source.start_apart)
+        s, n_held_open = self.source, len(self.source.eccentricity_equations)
         n_guess, n_set = len(s.start_guess), len(s.start_guess) + len(s.start_set) + n_held_open
         values = np.zeros(n_set + len(s.start_rates) + n_held_open + 1)
         first = self._get_output_pointer(values)
@@ -266,9 +269,9 @@ class CompiledModel:
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None) -> Array:
         """Return (q̇, q̈, powers of drives, forces and joints with play), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
-        `discrete_states` (n_memory,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of frictions,
-        internal states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or a state
-        that is not finite.
+        `discrete_states` (n_discrete_states,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of
+        frictions, internal states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or
+        a state that is not finite.
         """
         out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(
@@ -290,7 +293,7 @@ class CompiledModel:
         """
         if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
-        size = 2 * self.n + N_WORK + len(self.source.states)
+        size = 2 * self.n + N_WORK + len(self.source.internal_states)
         J, f_t = np.empty((size, size)), np.empty(size)
         status = self.lib.gudgeon_jacobian(
             check_time(t),
@@ -320,7 +323,7 @@ class CompiledModel:
         """
         if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
-        u = np.empty(2 * self.n + N_WORK + len(self.source.states))
+        u = np.empty(2 * self.n + N_WORK + len(self.source.internal_states))
         right_hand_side, eta, s = (
             self.pointer(as_c_array(r, "r", u.shape)),
             check_number(eta, "eta"),
@@ -346,7 +349,7 @@ class CompiledModel:
         s = self.source
         self.check_pivot(status, t)
         if status < 0:
-            names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions, *s.states)
+            names = (*s.coordinates, *(row.name for row in s.equations), *s.frictions, *s.internal_states)
             self.check_pivot(-status, t, names)
 
     def evaluate_motion_series(
@@ -367,7 +370,8 @@ class CompiledModel:
     ) -> Evaluation:
         """Return all quantities of a run (accelerations, multipliers, joint forces and others) at N samples.
 
-        t: (N,). q, v: (N, n). discrete_states: (N, n_memory). p: one set of parameter values, (n_p,), for all samples.
+        t: (N,). q, v: (N, n). discrete_states: (N, n_discrete_states). p: one set of parameter values, (n_p,), for all
+        samples.
 
         `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `field_names`: the
         requested fields of Evaluation. Raises SingularError for a sample that has no accelerations.
@@ -375,15 +379,20 @@ class CompiledModel:
         return evaluate(self, t, q, v, discrete_states, p, poll_cancellation, field_names)
 
     def as_discrete_states(self, discrete_states: ArrayLike | None) -> Array:
-        """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction, internal states of laws.
+        """Return the discrete states (n_discrete_states,), as an array for C.
 
+        They are δ̇⁻ per joint with play, mode per friction, internal states of laws.
         None: all joints free, modes unknown; this array is shared and read-only. In a scene without discrete states, an
         array of one number is accepted. Raises ArrayError for another length.
         """
         if discrete_states is None:
             return self._free_contact_states
         array = as_c_array(discrete_states, "memory")
-        return array if not self.n_memory and array.shape == (1,) else as_c_array(array, "memory", (self.n_memory,))
+        return (
+            array
+            if not self.n_discrete_states and array.shape == (1,)
+            else as_c_array(array, "memory", (self.n_discrete_states,))
+        )
 
     def check_pivot(
         self, status: int, t: float, pivot_names: tuple[str, ...] | None = None, p: ArrayLike | None = None
@@ -410,11 +419,11 @@ class CompiledModel:
             )
 
     def _evaluate_constraint_function(self, function_name: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
-        """Return the values of all constraint equations in source.start_rows by the C function `function_name`.
+        """Return the values of all constraint equations in source.start_equations by the C function `function_name`.
 
         It is Φ, ν or γ. `states` are q, or q and v, (n,) each.
         """
-        out = np.full(len(self.source.start_rows), np.nan)
+        out = np.full(len(self.source.start_equations), np.nan)
         pointers = [self._make_coordinate_pointer(state, name) for name, state in zip("qv", states, strict=False)]
         getattr(self.lib, function_name)(
             check_time(t), *pointers, self._get_parameter_pointer(p), self._get_output_pointer(out)

@@ -76,7 +76,7 @@ def set_contours(source: KernelSource, contour: Mapping[str, Array], values: Arr
             values[contour_slice], is_given[contour_slice] = contour[info.joint], True
 
 
-def find_contour(source: KernelSource, p: Array, joint: str) -> Array | None:
+def get_contour_depths(source: KernelSource, p: Array, joint: str) -> Array | None:
     """Return the depths (..., n) of a joint from p (..., n_parameters + n_derived); None if its bearing is a circle."""
     for info in source.contours:
         if info.joint == joint:
@@ -89,7 +89,7 @@ def compute_max_clearance(source: KernelSource, p: Array, joint: ClearanceInfo) 
 
     p: (n_parameters + n_derived,).
     """
-    depths, c = find_contour(source, p, joint.name), float(p[joint.clearance])
+    depths, c = get_contour_depths(source, p, joint.name), float(p[joint.clearance])
     return c if depths is None else c + float(depths.max())
 
 
@@ -138,7 +138,7 @@ def compute_corner_penetration(
 
     All contacts are open there. Both are NaN where the equations of motion have no solution.
     """
-    discrete_states = np.zeros(compiled.n_memory)
+    discrete_states = np.zeros(compiled.n_discrete_states)
     discrete_states[: len(compiled.source.clearances)] = math.nan
     try:
         columns = compiled.evaluate([t], [q], [v], [discrete_states], p, field_names=("clearance",)).clearance[
@@ -168,9 +168,11 @@ def find_slider_dimensions(source: KernelSource, p: Array, joint: ClearanceInfo)
 
     Values that the file does not give are 0.
     """
-    guide = source.slots[joint.clearance].address.rpartition(".")[0]
+    guide = source.parameters[joint.clearance].address.rpartition(".")[0]
     a, b, radius = (
-        float(p[source.slot_index[address]]) if (address := f"{guide}.{key}") in source.slot_index else 0.0
+        float(p[source.parameter_indices[address]])
+        if (address := f"{guide}.{key}") in source.parameter_indices
+        else 0.0
         for key in ("half_length", "half_height", "corner_radius")
     )
     return guide, a, b, radius

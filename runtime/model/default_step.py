@@ -15,7 +15,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
 from gudgeon.language.tree import evaluate, from_json
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.model.sizes import compute_norm_weights
 
 T_END = 1.0  # s, end of a scene's run by default
@@ -25,16 +25,16 @@ MAX_CONTACT_FRACTION = 1.0 / 50.0  # of the duration of a contact: largest step
 ASSUMED_IMPACT_SPEED = 0.1  # m/s, assumed for the duration of a contact
 
 
-def evaluate_scene_number(source: KernelSource, name: str, p: Array, default: float) -> float:
+def evaluate_scene_option(source: KernelSource, name: str, p: Array, default: float) -> float:
     """Return the scene's t_end, output or step for the parameter values p; `default` if it gives none.
 
     An expression of parameters is evaluated; a number is returned as the file has it. Raises BadValueError, with the
     line, for an expression that has no valid value.
     """
-    expression = next((info for info in source.simulate_written if info.address.rpartition(".")[2] == name), None)
+    expression = next((info for info in source.simulate_expressions if info.address.rpartition(".")[2] == name), None)
     if expression is None:
         return float(source.simulate.get(name, default))
-    values = {parameter.address: float(number) for parameter, number in zip(source.slots, p, strict=False)}
+    values = {parameter.address: float(number) for parameter, number in zip(source.parameters, p, strict=False)}
     value = float(evaluate(from_json(json.loads(expression.tree)), lambda path: values[f"parameters.{path}"]))
     is_count = name == "output"
     if not (math.isfinite(value) and (value >= 1.0 and value == round(value) if is_count else value > 0.0)):
@@ -44,17 +44,17 @@ def evaluate_scene_number(source: KernelSource, name: str, p: Array, default: fl
     return value
 
 
-def evaluate_scene_end(source: KernelSource, p: Array) -> float:
+def evaluate_scene_end_time(source: KernelSource, p: Array) -> float:
     """Return the end (s) of a scene's run with parameter values p: that of the file, or T_END. Raises BadValueError."""
-    return evaluate_scene_number(source, "t_end", p, T_END)
+    return evaluate_scene_option(source, "t_end", p, T_END)
 
 
-def evaluate_end(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
-    """Return the end (s) of a scene's run with these parameters, given as in `simulate`.
+def evaluate_file_end_time(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
+    """Return the end (s) that the file gives a scene's run with these parameters, or T_END.
 
-    Raises an InputError for wrong ones. None: the values of the file.
+    parameters: as in `simulate`; None: the values of the file. Raises an InputError for wrong ones.
     """
-    return evaluate_scene_end(compiled.source, prepare_values(compiled, parameters)[0])
+    return evaluate_scene_end_time(compiled.source, compute_parameter_values(compiled, parameters)[0])
 
 
 def evaluate_scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
@@ -62,7 +62,7 @@ def evaluate_scene_step(compiled: CompiledModel, p: Array, duration: float) -> f
 
     `duration` of the run (s): T_END is used in place of values <= 0.
     """
-    step = evaluate_scene_number(compiled.source, "step", p, 0.0)
+    step = evaluate_scene_option(compiled.source, "step", p, 0.0)
     return step or estimate_default_step(compiled, p, duration if duration > 0.0 else T_END)
 
 

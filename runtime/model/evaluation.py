@@ -73,7 +73,7 @@ def evaluate(
     t: ArrayLike,
     q: ArrayLike,
     v: ArrayLike,
-    memory: ArrayLike,
+    discrete_states: ArrayLike,
     p: ArrayLike,
     poll_cancellation: Callable[[], object],
     field_names: Collection[str],
@@ -86,15 +86,13 @@ def evaluate(
     """
     time = as_c_array(t, "t", (None,))
     if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
-        time = np.asarray(time + find_rounding_distance(time))
+        time = np.asarray(time + compute_rounding_distance(time))
     N = len(time)
     check = _check_matrix if N > FIRST_CHUNK_SAMPLES else _convert_matrix
-    discrete_states = check(memory, "memory", N, None)
-    if (
-        compiled.n_memory or discrete_states.shape[1] > 1
-    ):  # in a scene without discrete states, one column is accepted too
-        check(discrete_states, "memory", N, compiled.n_memory)
-    inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", discrete_states))
+    memory = check(discrete_states, "memory", N, None)
+    if compiled.n_discrete_states or memory.shape[1] > 1:  # without discrete states, one column is accepted too
+        check(memory, "memory", N, compiled.n_discrete_states)
+    inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", memory))
     evaluation, outputs = allocate_evaluation(compiled, N, field_names)
     failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST_CHUNK_SAMPLES
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))
@@ -127,14 +125,14 @@ def evaluate_runs(
 ) -> Evaluation:
     """Return the quantities at few samples of several runs: sample_counts[i] samples of run i with values p[i].
 
-    The samples of the runs follow each other: t (N,), q and v (N, n), discrete_states (N, n_memory), N =
+    The samples of the runs follow each other: t (N,), q and v (N, n), discrete_states (N, n_discrete_states), N =
     sum(sample_counts). With `mod` in drives the times are shifted by rounding, to the side after a jump. `field_names`:
     the requested fields. Raises ArrayError, SingularError.
     """
-    N, time = sum(sample_counts), t + find_rounding_distance(t) if compiled.has_mod_in_drives else t
+    N, time = sum(sample_counts), t + compute_rounding_distance(t) if compiled.has_mod_in_drives else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
-    input_pointers.append(compiled.pointer(as_c_array(discrete_states, "memory", (N, compiled.n_memory))))
+    input_pointers.append(compiled.pointer(as_c_array(discrete_states, "memory", (N, compiled.n_discrete_states))))
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
     (evaluation, outputs), failed_index = (
         allocate_evaluation(compiled, N, field_names),
@@ -193,7 +191,7 @@ def select_evaluated_rows(evaluation: Evaluation, rows: slice | NDArray[np.intp]
     return Evaluation(*(part[rows] for part in vars(evaluation).values()))
 
 
-def find_rounding_distance(t: Array) -> Array:
+def compute_rounding_distance(t: Array) -> Array:
     """Return the distance (s) from times t within which rounding decides on which side of a switching point t is.
 
     It is 32 |t| times the machine epsilon, at least 1e-100 s.
@@ -245,7 +243,7 @@ def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ..
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,),
-        "multipliers": (len(s.rows),),
+        "multipliers": (len(s.equations),),
         "reactions": (len(s.joints) + len(s.guides), N_REACTION_COLUMNS),
         "torques": (len(s.drives),),
         "clearance": (len(s.clearances), N_CLEARANCE_COLUMNS),
@@ -268,12 +266,12 @@ def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) 
     s = compiled.source
     for field_values in (
         (evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.energy, evaluation.power)
-        if s.massless
+        if s.massless_bodies
         else ()
     ):
         field_values[:] = np.nan
     for owner in s.indeterminate:
-        evaluation.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
+        evaluation.multipliers[:, [k for k, row in enumerate(s.equations) if row.owner == owner]] = np.nan
         evaluation.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
         evaluation.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
@@ -300,7 +298,7 @@ def compute_sample_bytes(compiled: CompiledModel) -> int:
     Accelerations are stored for linkages without degrees of freedom only.
     """
     n_derivatives = 2 if compiled.source.degrees_of_freedom else 3
-    n_doubles = 1 + n_derivatives * compiled.n + N_WORK + max(compiled.n_memory, 1)
+    n_doubles = 1 + n_derivatives * compiled.n + N_WORK + max(compiled.n_discrete_states, 1)
     return 8 * n_doubles + max(len(compiled.source.clearances), 1)
 
 

@@ -32,7 +32,7 @@ from gudgeon.language.tree import (
     iterate_names,
     replace_names,
 )
-from gudgeon.language.undefined_parts import find_possibly_undefined_cases, find_undefined_part, is_total_expression
+from gudgeon.language.undefined_parts import find_possibly_undefined_cases, find_undefined_part, is_defined_everywhere
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 
@@ -60,7 +60,7 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
     raises KeyError for others. Positions and velocities of points follow from those of their body.
     """
     index_of_coordinate = {name: k for k, name in enumerate(source.coordinates)}
-    parameter_values = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
+    parameter_values = {parameter.address: float(p[k]) for k, parameter in enumerate(source.parameters)}
     points = {point.name: point for point in source.points}
     offset_of_component = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
 
@@ -94,14 +94,15 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
 
 def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
     """Return the values (N,) of an expression of t and parameters at times t (N,). p: parameter values."""
-    slots = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
-    return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else slots[f"parameters.{path}"]), t.shape)
+    values = {parameter.address: float(p[k]) for k, parameter in enumerate(source.parameters)}
+    return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else values[f"parameters.{path}"]), t.shape)
 
 
 @cache_by_values
 def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[ExpressionInfo, Expr]]:
     """Return the expressions of t and motion in sections `kinds` of the file (drives, forces, events), with trees."""
-    return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
+    selected = (info for info in source.file_expressions if info.address.split(".")[0] in kinds)
+    return [(info, from_json(json.loads(info.tree))) for info in selected]
 
 
 def may_powers_be_undefined(source: KernelSource) -> bool:
@@ -112,7 +113,7 @@ def may_powers_be_undefined(source: KernelSource) -> bool:
     """
     trees = [tree for _, tree in read_expression_trees(source, ("drives", "forces"))]
     has_line = any(part.section == "forces" and part.kind not in DEFINED_EVERYWHERE for part in source.parts)
-    return has_line or any(x.tree for x in source.slots) or not all(map(is_total_expression, trees))
+    return has_line or any(x.tree for x in source.parameters) or not all(map(is_defined_everywhere, trees))
 
 
 def explain_undefined_value_after(
@@ -251,12 +252,12 @@ def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: A
 
     times: increasing times (s) that are examined; q (n,): a position at which the constraint equations are evaluated.
     """
-    drives = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive"]
+    drives = [k for k, row in enumerate(compiled.source.start_equations) if row.kind == "drive"]
     v = np.zeros(compiled.n)
     for t in times.tolist() if drives else ():
         for order, rates in (("rate", compiled.closed_nu(t, q, p)), ("second rate", compiled.closed_gamma(t, q, v, p))):
             if invalid_rows := [k for k in drives if not np.isfinite(rates[k])]:
-                name = compiled.source.start_rows[invalid_rows[0]].name
+                name = compiled.source.start_equations[invalid_rows[0]].name
                 return f"the {order} of drive {name} is {-rates[invalid_rows[0]]:g} at t = {t:.9g} s", t
     return "", float(times[-1])
 
@@ -292,7 +293,8 @@ def explain_nonfinite_part(source: KernelSource, tree: Expr, values: Values) -> 
 
 def _expand_named_expressions(source: KernelSource) -> list[tuple[ExpressionInfo, Expr]]:
     """Return the file's named expressions, with the names of others replaced by their trees."""
-    trees_by_name = {info.address.partition(".")[2]: from_json(json.loads(info.tree)) for info in source.expressions}
+    expressions = source.named_expressions
+    trees_by_name = {info.address.partition(".")[2]: from_json(json.loads(info.tree)) for info in expressions}
     expanded_trees: dict[str, Expr] = {}
 
     def expand_tree(name: str) -> Expr:
@@ -302,7 +304,7 @@ def _expand_named_expressions(source: KernelSource) -> list[tuple[ExpressionInfo
             expanded_trees[name] = replace_names(trees_by_name[name], {other: expand_tree(other) for other in used})
         return expanded_trees[name]
 
-    return [(info, expand_tree(name)) for name, info in zip(trees_by_name, source.expressions, strict=True)]
+    return [(info, expand_tree(name)) for name, info in zip(trees_by_name, expressions, strict=True)]
 
 
 def _find_path_to_nonfinite_part(tree: Expr, values: Values) -> list[Expr]:
@@ -364,14 +366,14 @@ def find_unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
         np.nan_to_num(np.abs([compiled.closed_gamma(float(s), zero, zero, p) for s in times]), nan=fill).max(axis=0)
         for times, fill in ((times_t, np.inf), ((t - distance, t + distance), 0.0))
     )
-    rows = compiled.source.start_rows
+    rows = compiled.source.start_equations
     drives = [k for k, row in enumerate(rows) if row.kind == "drive" and at_t[k] > 100.0 * near_t[k]]
     return rows[max(drives, key=lambda k: at_t[k])].owner if drives else ""
 
 
 def find_force_with_unbounded_slope(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
     """Return which force has an unbounded slope by a name of motion or t, or is not a number; "" if none has."""
-    values, addresses = make_value_function(source, p, t, q, v), {parameter.address for parameter in source.slots}
+    values, addresses = make_value_function(source, p, t, q, v), {parameter.address for parameter in source.parameters}
     for info, tree in read_expression_trees(source, ("forces",)):
         for path in sorted({name.path for name in iterate_names(tree)}):
             value = float(values(path))
@@ -410,7 +412,7 @@ def _has_unbounded_slope(function: Callable[[float], float], point: float) -> bo
 
 
 @dataclass(frozen=True)
-class PartialExpression:
+class PossiblyUndefinedExpression:
     """Hold an expression that may be undefined; `parameter_index`: of the parameter that it
     defines, −1: none; `indices_by_name`: of the parameters in it."""
 
@@ -423,76 +425,74 @@ class PartialExpression:
 def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
     """Return a mask (n,) of runs with p (n, n_parameters + n_derived) that may have an undefined value.
 
-    Values given, by the mask is_given (n, n_parameters), do not count. `describe_undefined_number` decides exactly.
+    Values given, by the mask is_given (n, n_parameters), do not count. `describe_undefined_part` decides exactly.
     """
     has_undefined = np.zeros(len(p), dtype=np.bool_)
-    for partial in _find_affected_expressions(source, p):
-        values_by_name = {name: p[:, k] for name, k in partial.indices_by_name.items()}
-        undefined = find_possibly_undefined_cases(partial.tree, values_by_name)
+    for expression in _find_affected_expressions(source, p):
+        values_by_name = {name: p[:, k] for name, k in expression.indices_by_name.items()}
+        undefined = find_possibly_undefined_cases(expression.tree, values_by_name)
         has_undefined |= (
-            undefined & ~is_given[:, partial.parameter_index].astype(bool)
-            if partial.parameter_index >= 0
+            undefined & ~is_given[:, expression.parameter_index].astype(bool)
+            if expression.parameter_index >= 0
             else undefined
         )
     return has_undefined
 
 
-def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
+def describe_undefined_part(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
     """Return a message on the first expression of a run with an undefined part; "" if there is none.
 
     p: (n_p,). Expressions of parameters that are given, by the mask is_given (n_parameters,), are skipped.
     """
-    for partial in _find_affected_expressions(source, p[np.newaxis]):
-        values_by_name = {name: float(p[k]) for name, k in partial.indices_by_name.items()}
-        if partial.parameter_index >= 0 and is_given[partial.parameter_index]:
+    for expression in _find_affected_expressions(source, p[np.newaxis]):
+        values_by_name = {name: float(p[k]) for name, k in expression.indices_by_name.items()}
+        if expression.parameter_index >= 0 and is_given[expression.parameter_index]:
             continue
-        if (undefined_part := find_undefined_part(partial.tree, values_by_name)) is not None:
+        if (undefined_part := find_undefined_part(expression.tree, values_by_name)) is not None:
             values_text = ", ".join(f"{name} = {number:.6g}" for name, number in values_by_name.items())
-            return f"{partial.address} has a part that is {undefined_part} with {values_text}\n  {REMEDY}"
+            return f"{expression.address} has a part that is {undefined_part} with {values_text}\n  {REMEDY}"
     return ""
 
 
-def _find_affected_expressions(source: KernelSource, p: Array) -> list[PartialExpression]:
-    """Return the partial expressions with a parameter that differs from the file's value in at least one run.
+def _find_affected_expressions(source: KernelSource, p: Array) -> list[PossiblyUndefinedExpression]:
+    """Return the possibly undefined expressions with a parameter that differs from the file's in at least one run.
 
     p: parameter values (n_runs, n_p). Indices and defaults of the parameters are cached in the source.
     """
-    cache = vars(source)
+    cache, expressions = vars(source), list_possibly_undefined_expressions(source)
     if "partial_indices" not in cache:
-        parameter_indices = sorted(
-            {k for partial in find_partial_expressions(source) for k in partial.indices_by_name.values()}
-        )
+        parameter_indices = sorted({k for expression in expressions for k in expression.indices_by_name.values()})
         cache["partial_indices"] = parameter_indices
-        cache["partial_defaults"] = np.array([source.slots[k].default for k in parameter_indices])
+        cache["partial_defaults"] = np.array([source.parameters[k].default for k in parameter_indices])
     parameter_indices = cache["partial_indices"]
     is_changed = (p[:, parameter_indices] != cache["partial_defaults"]).any(axis=0)
     if not is_changed.any():
         return []
     changed_indices = {parameter_indices[k] for k in np.flatnonzero(is_changed).tolist()}
     return [
-        partial
-        for partial in find_partial_expressions(source)
-        if not changed_indices.isdisjoint(partial.indices_by_name.values())
+        expression for expression in expressions if not changed_indices.isdisjoint(expression.indices_by_name.values())
     ]
 
 
-def find_partial_expressions(source: KernelSource) -> list[PartialExpression]:
+def list_possibly_undefined_expressions(source: KernelSource) -> list[PossiblyUndefinedExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined; read once for each source."""
     cache = vars(source)
     if "partials" not in cache:
-        cache["partials"] = _read_partial_expressions(source)
-    result: list[PartialExpression] = cache["partials"]
+        cache["partials"] = _read_possibly_undefined_expressions(source)
+    result: list[PossiblyUndefinedExpression] = cache["partials"]
     return result
 
 
-def _read_partial_expressions(source: KernelSource) -> list[PartialExpression]:
+def _read_possibly_undefined_expressions(source: KernelSource) -> list[PossiblyUndefinedExpression]:
     """Return the expressions of parameters, drives and forces that may be undefined, from the source's JSON trees."""
-    parameter_index, result = source.slot_index, []
-    trees = [(parameter.address, parameter.tree, k) for k, parameter in enumerate(source.slots) if parameter.tree]
-    for address, tree, k in [*trees, *((info.address, info.tree, -1) for info in source.written)]:
+    parameter_index, result = source.parameter_indices, []
+    trees = [(parameter.address, parameter.tree, k) for k, parameter in enumerate(source.parameters) if parameter.tree]
+    for address, tree, k in [*trees, *((info.address, info.tree, -1) for info in source.file_expressions)]:
         expr = from_json(json.loads(tree))
         paths = dict.fromkeys(name.path for name in iterate_names(expr))
         indices = {name: parameter_index.get(f"parameters.{name}", parameter_index.get(name, -1)) for name in paths}
-        if not is_total_expression(expr):
-            result.append(PartialExpression(address, expr, k, {name: i for name, i in indices.items() if i >= 0}))
+        if not is_defined_everywhere(expr):
+            result.append(
+                PossiblyUndefinedExpression(address, expr, k, {name: i for name, i in indices.items() if i >= 0})
+            )
     return result

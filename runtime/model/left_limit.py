@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gudgeon.language.functions import PIECEWISE
 from gudgeon.language.tree import CurveCall, iterate_calls
-from gudgeon.model.evaluation import find_rounding_distance
+from gudgeon.model.evaluation import compute_rounding_distance
 from gudgeon.model.file_expressions import read_expression_trees
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def find_evaluation_times(
     previous_time = float(t[-2]) if len(t) > 1 else start_time
     if not len(t) or not previous_time < t[-1] or not compiled.may_drive_acceleration_jump:
         return t
-    before, after = (float(t[-1] + sign * find_rounding_distance(t[-1])) for sign in (-2.0, 2.0))
+    before, after = (float(t[-1] + sign * compute_rounding_distance(t[-1])) for sign in (-2.0, 2.0))
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
     nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
     max_smooth_change = MAX_SMOOTH_CHANGE_RATIO * float(np.abs(gamma).max(initial=0.0)) * (after - before)

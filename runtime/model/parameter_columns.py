@@ -17,7 +17,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_names
 from gudgeon.model.arrays import FLAG
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.file_expressions import describe_undefined_number, find_partial_expressions
+from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
 from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
 from gudgeon.model.sizes import find_length_indices
 
@@ -28,8 +28,8 @@ class ParameterColumns:
     """Compute the values `p` and `p_motion` (n_rows, n_p) of runs whose parameters `names` are given as arrays.
 
     `p_motion` are the values for the motion, without Baumgarte gains unless `keeps_gains`; see
-    `parameters.prepare_without_baumgarte`. Without such gains it is the same array. `fixed` holds further parameters
-    {address or name: value} of all runs. Raises InputError for names and for values of `fixed`.
+    `parameters.compute_values_without_baumgarte`. Without such gains it is the same array. `fixed` holds further
+    parameters {address or name: value} of all runs. Raises InputError for names and for values of `fixed`.
     """
 
     def __init__(
@@ -38,25 +38,27 @@ class ParameterColumns:
         source = self.source = compiled.source
         self.compiled, self.names, self.fixed = compiled, names, fixed
         _, is_given = read_given_parameters(source, dict.fromkeys(names, 1.0) | dict(fixed))
-        gains = [source.slot_index[name] for name in GAINS if name in source.slot_index and not keeps_gains]
+        gains = [
+            source.parameter_indices[name] for name in GAINS if name in source.parameter_indices and not keeps_gains
+        ]
         values, is_fixed = read_given_parameters(source, fixed)
         self._given = np.stack([values, values])  # rows: of the run, and of its motion
         self._is_given = np.stack([is_given, is_given]).astype(FLAG)
         self._given[1, gains], self._is_given[1, gains] = 0.0, 1
-        n_parameters = len(source.slots)
+        n_parameters = len(source.parameters)
         indices_by_column = [_find_indices_of_name(source, name) for name in names]
         # where the value of each column is written, as offsets from the first value given
         self._offsets = [
             [*indices, *(n_parameters + k for k in indices if k not in gains)] for indices in indices_by_column
         ]
         self._has_choices = any(
-            parameter.words and mask for parameter, mask in zip(source.slots, is_given, strict=True)
+            parameter.words and mask for parameter, mask in zip(source.parameters, is_given, strict=True)
         )
         self.p = np.tile(compiled.prepare(values, is_fixed), (n_rows, 1))
         self.p_motion = self.p.copy() if gains else self.p
         self._given_pointer, self._pointers = compiled.pointer(self._given, is_written=True), self._make_pointers()
         *self._limits, self._relations = collect_conditions(source)
-        self._has_partial_expressions = bool(find_partial_expressions(source))
+        self._has_partial_expressions = bool(list_possibly_undefined_expressions(source))
         self.length_indices = find_length_indices(source)
 
     def _make_pointers(self) -> list[tuple[tuple[Any, Any, Any], ...]]:
@@ -73,7 +75,7 @@ class ParameterColumns:
             for k in range(len(self.p))
         ]
 
-    def compute_row(self, x: Array, k: int) -> bool:
+    def compute_values_of_row(self, x: Array, k: int) -> bool:
         """Compute row k of `p` and `p_motion` from x (n_names,), and return whether the values are valid.
 
         Parameters without a column keep the values fixed at the construction. NaN, infinite and subnormal values are
@@ -109,7 +111,7 @@ class ParameterColumns:
                 return False
         return not (
             self._has_partial_expressions
-            and describe_undefined_number(self.source, p, self._is_given[0, : len(self.source.slots)])
+            and describe_undefined_part(self.source, p, self._is_given[0, : len(self.source.parameters)])
         )
 
 
@@ -132,8 +134,8 @@ def _find_indices_of_name(source: KernelSource, name: str) -> list[int]:
     Raises UnknownNameError, and BadValueError for a choice, which has no number.
     """
     for address in (name, f"parameters.{name}"):
-        k = source.slot_index.get(address)
-        if k is not None and source.slots[k].words:
-            hint = f"fixed={{{name!r}: {source.slots[k].words[0]!r}}}"
+        k = source.parameter_indices.get(address)
+        if k is not None and source.parameters[k].words:
+            hint = f"fixed={{{name!r}: {source.parameters[k].words[0]!r}}}"
             raise BadValueError(f"parameters: {name!r} is a choice of a name: expected a number", hint=hint)
     return list[int](np.flatnonzero(read_given_parameters(source, {name: 1.0})[1]).tolist())

@@ -20,8 +20,8 @@ from gudgeon.model.file_expressions import find_undefined_runs
 from gudgeon.model.parameters import (
     RELATIONS,
     check_parameter_values,
+    compute_values_without_baumgarte,
     list_conditions,
-    prepare_without_baumgarte,
     read_given_parameters,
     read_parameter_value,
 )
@@ -100,72 +100,88 @@ def _is_not_finite(x: Any) -> bool:
     return isinstance(x, FLOATS) and not math.isfinite(x)
 
 
-def read_parameter_rows(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
+def read_parameter_sets(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
     """Return a parameter mapping for each run, and errors of runs with NaN or infinite values, by index.
 
     `parameters`: a mapping for every run; or {address: one value, or one for every run}, also as a structured array or
     a pandas table. Values that are not finite are left out of the mappings. A single run is not tested. Raises
     BadValueError if there are no runs or all have such values.
     """
-    rows, errors = _read_parameter_sets(parameters), dict[int, BadValueError]()
-    if not rows:
+    parameter_sets, errors = _convert_to_parameter_sets(parameters), dict[int, BadValueError]()
+    if not parameter_sets:
         raise BadValueError("parameters is empty: expected at least one run", hint="a mapping, or {address: values}")
-    if isinstance(rows, Columns):
-        errors = rows.omit_nonfinite_values()
-    elif len(rows) > 1:
-        floats = [x for row in rows for x in row.values() if isinstance(x, FLOATS)]
-        for i, row in enumerate(() if all(map(math.isfinite, floats)) else rows):
-            if nonfinite_names := [name for name, x in row.items() if _is_not_finite(x)]:
-                errors[i] = BadValueError(f"{nonfinite_names[0]}: {row[nonfinite_names[0]]} is not a finite number")
-                rows[i] = {name: value for name, value in row.items() if name not in nonfinite_names}
-    if len(errors) == len(rows):
+    if isinstance(parameter_sets, Columns):
+        errors = parameter_sets.omit_nonfinite_values()
+    elif len(parameter_sets) > 1:
+        floats = [x for parameter_set in parameter_sets for x in parameter_set.values() if isinstance(x, FLOATS)]
+        for i, parameter_set in enumerate(() if all(map(math.isfinite, floats)) else parameter_sets):
+            if nonfinite_names := [name for name, x in parameter_set.items() if _is_not_finite(x)]:
+                errors[i] = BadValueError(
+                    f"{nonfinite_names[0]}: {parameter_set[nonfinite_names[0]]} is not a finite number"
+                )
+                parameter_sets[i] = {
+                    name: value for name, value in parameter_set.items() if name not in nonfinite_names
+                }
+    if len(errors) == len(parameter_sets):
         raise BadValueError(f"parameters: {errors[0]}")
-    return rows, errors
+    return parameter_sets, errors
 
 
-def read_given_parameters_of_runs(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
+def read_given_parameters_of_runs(
+    source: KernelSource, parameter_sets: Sequence[Mapping[str, Any]]
+) -> tuple[Array, Mask]:
     """Return values and mask (n_runs, n_parameters) of the given parameters; raises as `read_given_parameters`.
 
     Runs that give the same parameters as floats are read at once.
     """
-    uniform = read_uniform_rows(source, rows)
+    values_and_mask = read_runs_with_equal_names(source, parameter_sets)
     result: tuple[Array, Mask] = (
-        read_each_run(rows, lambda _, row: read_given_parameters(source, row)) if uniform is None else uniform
+        read_each_run(parameter_sets, lambda _, parameter_set: read_given_parameters(source, parameter_set))
+        if values_and_mask is None
+        else values_and_mask
     )
     return result
 
 
-def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
+def read_runs_with_equal_names(
+    source: KernelSource, parameter_sets: Sequence[Mapping[str, Any]]
+) -> tuple[Array, Mask] | None:
     """Return values and mask (n_runs, n_parameters) if all runs give the same parameters as floats; else None.
 
     This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a
     number. None also for choices, unknown names and parameters given twice.
     """
-    names_of_first_run, index_by_address = rows[0].keys(), source.slot_index
-    if not isinstance(rows, Columns):
-        if not all(row.keys() == names_of_first_run for row in rows):
+    names_of_first_run, index_by_address = parameter_sets[0].keys(), source.parameter_indices
+    if not isinstance(parameter_sets, Columns):
+        if not all(parameter_set.keys() == names_of_first_run for parameter_set in parameter_sets):
             return None
-        rows = Columns({name: [row[name] for row in rows] for name in names_of_first_run}, len(rows))
+        parameter_sets = Columns(
+            {name: [parameter_set[name] for parameter_set in parameter_sets] for name in names_of_first_run},
+            len(parameter_sets),
+        )
     parameter_indices = [
         index_by_address.get(name, index_by_address.get(f"parameters.{name}", -1))
-        for name in rows.columns
+        for name in parameter_sets.columns
         if isinstance(name, str)
     ]
     if (
-        len(parameter_indices) < len(rows.columns)
+        len(parameter_indices) < len(parameter_sets.columns)
         or len({*parameter_indices, -1}) <= len(parameter_indices)
-        or any(source.slots[k].words for k in parameter_indices)
+        or any(source.parameters[k].words for k in parameter_indices)
     ):
         return None
-    shape = (len(index_by_address), len(rows))  # parameter by parameter: memory of those not given stays untouched
+    # parameter by parameter: memory of those not given stays untouched
+    shape = (len(index_by_address), len(parameter_sets))
     given_values, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
-    for k, column in zip(parameter_indices, rows.columns.values(), strict=True):
-        numbers = _read_floats(column, source.slots[k])
+    for k, column in zip(parameter_indices, parameter_sets.columns.values(), strict=True):
+        numbers = _read_floats(column, source.parameters[k])
         if numbers is None:
             return None
         given_values[:, k], mask[:, k] = numbers, True
-    for i, names in rows.omitted_names.items():
-        omitted_indices = [k for k, name in zip(parameter_indices, rows.columns, strict=True) if name in names]
+    for i, names in parameter_sets.omitted_names.items():
+        omitted_indices = [
+            k for k, name in zip(parameter_indices, parameter_sets.columns, strict=True) if name in names
+        ]
         given_values[i, omitted_indices], mask[i, omitted_indices] = 0.0, False
     return (given_values, mask) if np.isfinite(given_values[:, parameter_indices]).all() else None
 
@@ -189,23 +205,23 @@ def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float |
 
 
 def read_each_run(
-    rows: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
+    parameter_sets: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
 ) -> Any:
     """Return values and mask (n_runs, n_parameters) by calling `read_run`(i, mapping of run i) for each run.
 
     Raises BadValueError, which names the run.
     """
     pairs = []
-    for i, row in enumerate(rows):
+    for i, parameter_set in enumerate(parameter_sets):
         try:
-            pairs.append(read_run(i, row))
+            pairs.append(read_run(i, parameter_set))
         except BadValueError as error:
             raise BadValueError(f"run {i}: {error}") from None
     return np.array([given_values for given_values, _ in pairs]), np.array([mask for _, mask in pairs])
 
 
-def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
-    """Return the parameters of runs as a list of mappings or as Columns, from the forms that `read_parameter_rows` has.
+def _convert_to_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
+    """Return the parameters of runs as a list of mappings or as Columns, from the forms that `read_parameter_sets` has.
 
     Columns of a single run become a list. Raises BadValueError for other types and for columns of different lengths.
     """
@@ -216,10 +232,10 @@ def _read_parameter_sets(parameters: ParameterSets) -> list[Mapping[str, Any]] |
         parameters = {str(name): parameters[name] for name in parameters.columns}
     if not isinstance(parameters, Mapping) and not hasattr(parameters, "items"):
         iterable = isinstance(parameters, Iterable) and not isinstance(parameters, (str, bytes, np.ndarray))
-        rows: list[Any] = list(parameters) if iterable else [None]
-        if not all(issubclass(kind, Mapping) for kind in {*map(type, rows)}):
+        parameter_sets: list[Any] = list(parameters) if iterable else [None]
+        if not all(issubclass(kind, Mapping) for kind in {*map(type, parameter_sets)}):
             raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
-        return rows
+        return parameter_sets
     parameters = check_mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
     columns = {name: _read_column(f"parameters: {name}", values) for name, values in parameters.items()}
     lengths = {name: len(column) for name, column in columns.items() if not isinstance(column, ConstantColumn)}
@@ -265,7 +281,7 @@ def _read_column(name: str, values: Any) -> Column:
     return list(values) if hasattr(values, "__iter__") else _read_column(name, np.asarray(values))  # by __array__ alone
 
 
-def prepare_values_of_runs(
+def compute_parameter_values_of_runs(
     compiled: CompiledModel, given_values: Array, is_given: Mask, without_baumgarte: bool
 ) -> tuple[Array, Array, dict[int, BadValueError]]:
     """Return the values of all runs, those for the motion, and the errors of invalid runs by index.
@@ -275,7 +291,7 @@ def prepare_values_of_runs(
     `parameters.check_parameter_values`.
     """
     p = compiled.prepare_parameters_of_runs(given_values, is_given)
-    motion_values = prepare_without_baumgarte(compiled, given_values, is_given) if without_baumgarte else p
+    motion_values = compute_values_without_baumgarte(compiled, given_values, is_given) if without_baumgarte else p
     errors = {}
     parts = [slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)]
     valid = [_find_valid_runs(compiled.source, p[part], is_given[part]) for part in parts]
@@ -293,7 +309,7 @@ def _find_valid_runs(source: KernelSource, p: Array, is_given: Mask) -> Mask:
     p: (n_runs, n_parameters + n_derived); is_given: (n_runs, n_parameters). Runs with undefined expressions may be
     marked wrongly; `check_parameter_values` decides.
     """
-    index_by_address = source.slot_index
+    index_by_address = source.parameter_indices
     valid = np.asarray(np.isfinite(p).all(axis=1))
     for condition in list_conditions(source):
         bound_indices = [index_by_address[address] for address in condition.addresses]

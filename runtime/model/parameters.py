@@ -22,7 +22,7 @@ from gudgeon.model.arrays import FLAG
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import explain_law_choice, explain_named_expression, find_word_index
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.file_expressions import describe_undefined_number, find_partial_expressions
+from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
 from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia, has_unresolved_clearance
 
 # a number as files have it, in ASCII digits without '_'; float() accepts more
@@ -50,9 +50,8 @@ def read_given_parameters(
     `mapping_name` is its name in messages. Raises UnknownNameError, and BadValueError for a parameter given twice.
     """
     parameters = check_mapping(parameters, mapping_name, "{address or parameter name: a float in SI, or '0.5 mm'}")
-    index_by_address, slots = source.slot_index, source.slots
-    values, mask = np.zeros(len(slots)), np.zeros(len(slots), dtype=bool)
-    spellings = dict[int, str]()
+    index_by_address, n = source.parameter_indices, len(source.parameters)
+    values, mask, spellings = np.zeros(n), np.zeros(n, dtype=bool), dict[int, str]()
     for name, value in parameters.items():
         address = name if name in index_by_address else f"parameters.{name}"
         addresses = (address,) if address in index_by_address else PARAMETER_GROUPS.get(name, ())
@@ -64,13 +63,13 @@ def read_given_parameters(
                 raise BadValueError(
                     f"{address_of_parameter} is given twice: as {spellings[k]!r} and as {name!r}", hint="give it once"
                 )
-            values[k], mask[k], spellings[k] = read_parameter_value(value, source.slots[k]), True, name
+            values[k], mask[k], spellings[k] = read_parameter_value(value, source.parameters[k]), True, name
     return values, mask
 
 
 def list_addresses(source: KernelSource) -> list[str]:
     """Return all names of run-time parameters: addresses, short names of parameters, and names of groups."""
-    full_addresses = [parameter.address for parameter in source.slots]
+    full_addresses = [parameter.address for parameter in source.parameters]
     group_names = [
         name
         for name, members in PARAMETER_GROUPS.items()
@@ -87,9 +86,10 @@ def explain_address(source: KernelSource, address: str) -> tuple[str, str]:
     """
     if (option_explanation := _explain_run_option(address))[0]:
         return option_explanation
-    candidates = (address, *(info.address for info in source.written if info.address.partition(".")[2] == address))
+    expressions = source.file_expressions
+    candidates = (address, *(info.address for info in expressions if info.address.partition(".")[2] == address))
     address = candidates[-1]  # "motor.value" too
-    expression = next((info for info in source.written if info.address == address), None)
+    expression = next((info for info in expressions if info.address == address), None)
     if expression is None and address.removeprefix("outputs.") not in source.outputs:
         explanations = (
             explain_named_expression,
@@ -132,10 +132,8 @@ def _explain_motion_result(source: KernelSource, address: str) -> tuple[str, str
     if body not in (info.name for info in source.bodies) or component not in ("x", "y", "theta", "vx", "vy", "omega"):
         return "", ""
     message = f"{address} is a result of the motion, not a parameter of the file"
-    is_velocity, parameter_addresses = (
-        component in ("vx", "vy", "omega"),
-        {parameter.address for parameter in source.slots},
-    )
+    is_velocity = component in ("vx", "vy", "omega")
+    parameter_addresses = {parameter.address for parameter in source.parameters}
     is_driven_velocity = is_velocity and source.degrees_of_freedom <= 0
     if (
         driving_text := _describe_driving_parameters(source, body)
@@ -166,7 +164,7 @@ def _describe_driving_parameters(source: KernelSource, body: str) -> str:
         if part.section != "drives" or body and body not in (end.rpartition(".")[0] for end in ends):
             continue
         address = f"drives.{part.name}.value"
-        values = [from_json(json.loads(info.tree)) for info in source.written if info.address == address]
+        values = [from_json(json.loads(info.tree)) for info in source.file_expressions if info.address == address]
         parameter_names = dict.fromkeys(
             name.path for tree in values for name in iterate_names(tree) if name.path != "t"
         )
@@ -187,7 +185,7 @@ def _explain_missing_start_position(source: KernelSource, address: str) -> tuple
     """
     section, subsection, joint, *component = [*address.split("."), "", "", ""][:4]
     is_slider_by_joint = {clearance.joint: clearance.is_corner for clearance in source.clearances}
-    has_start = any(parameter.address.startswith(f"start.play.{joint}.") for parameter in source.slots)
+    has_start = any(parameter.address.startswith(f"start.play.{joint}.") for parameter in source.parameters)
     if (section, subsection) != ("start", "play") or joint not in is_slider_by_joint or has_start:
         return "", ""
     example = f"start: {{play: {{{joint}: {{{'offset: 0 mm' if is_slider_by_joint[joint] else 'e: [0 mm, 0 mm]'}}}}}}}"
@@ -197,7 +195,8 @@ def _explain_missing_start_position(source: KernelSource, address: str) -> tuple
 def _explain_single_material(source: KernelSource, address: str) -> tuple[str, str]:
     """Return (message, hint) for the choice of a material, if the file has only one; ("", "") for others."""
     owner, _, key = address.rpartition(".")
-    if not key.endswith("material") or not any(parameter.address.startswith(f"{owner}.") for parameter in source.slots):
+    has_parameters = any(parameter.address.startswith(f"{owner}.") for parameter in source.parameters)
+    if not (key.endswith("material") and has_parameters):
         return "", ""
     message = (
         f"{address}: the file has only one material with the values that are needed there, so none can be selected"
@@ -252,31 +251,33 @@ def insert_space_before_unit(text: str) -> str:
     return f"{match[1]} {match[2]}" if match else text.strip()
 
 
-def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
-    """Return (p, given, is_given), checked: see CompiledModel.prepare.
+def compute_parameter_values(
+    compiled: CompiledModel, parameters: Mapping[str, float | str] | None
+) -> tuple[Array, Array, Array]:
+    """Return the checked values p (n_p,) of a run, and given values and their mask (n_parameters,).
 
     parameters: None for the file's values; see `read_given_parameters`. Raises BadValueError, UnknownNameError.
     """
     given_values, is_given = read_given_parameters(compiled.source, parameters)
-    return prepare_run_values(compiled, given_values, is_given)[0], given_values, is_given
+    return compute_cached_run_values(compiled, given_values, is_given)[0], given_values, is_given
 
 
-def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
-    """Return what `compute_run_values` returns, cached for equal values: a copy."""
+def compute_cached_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
+    """Return the values (2, n_p) of `compute_run_values`: a copy of the result that is cached for equal arguments."""
     return _prepare_run(compiled, given_values, is_given).copy()
 
 
 def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
     """Return the checked values p for given parameters and mask, and those without Baumgarte gains, (2, n_p).
 
-    The second are for methods that project; see `prepare_without_baumgarte`. Raises BadValueError.
+    The second are for methods that project; see `compute_values_without_baumgarte`. Raises BadValueError.
     """
     source, shape = compiled.source, (2, len(given_values))
     pair, masks, values = np.empty(shape), np.empty(shape, FLAG), np.empty((2, compiled.n_p))
     pair[:], masks[:] = given_values, is_given
     for k in _find_gain_indices(source):
         pair[1, k], masks[1, k] = 0.0, 1
-    compiled.prepare_rows(pair, masks, values)
+    compiled.prepare_runs_in_place(pair, masks, values)
     if not has_valid_values(source, values[0], is_given):
         check_parameter_values(source, values[0], is_given)
     return values
@@ -285,7 +286,9 @@ def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: N
 _prepare_run = cache_by_values(compute_run_values)  # callers must not change the values
 
 
-def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
+def compute_values_without_baumgarte(
+    compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]
+) -> Array:
     """Return the values p of one or n runs with both Baumgarte gains zero, for methods that project.
 
     given_values, is_given: (n_parameters,) or (n, n_parameters); they are not changed.
@@ -298,7 +301,7 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
 @cache_by_values
 def _find_gain_indices(source: KernelSource) -> list[int]:
     """Return the indices of the parameters that are Baumgarte gains; the list must not be changed."""
-    return [source.slot_index[name] for name in GAINS if name in source.slot_index]
+    return [source.parameter_indices[name] for name in GAINS if name in source.parameter_indices]
 
 
 def has_valid_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> bool:
@@ -311,8 +314,8 @@ def has_valid_values(source: KernelSource, p: Array, is_given: NDArray[np.generi
             return False
     return not (
         has_unresolved_clearance(source, p)
-        or find_partial_expressions(source)
-        and describe_undefined_number(source, p, is_given)
+        or list_possibly_undefined_expressions(source)
+        and describe_undefined_part(source, p, is_given)
     )
 
 
@@ -325,12 +328,12 @@ def collect_conditions(source: KernelSource) -> tuple[Array, Array, list[Relatio
 
     Each relation is (index, indices of the terms of its bound, operator). Values without a condition are finite.
     """
-    n_p, relations = len(source.slots) + len(source.derived), list[Relation]()
+    n_p, relations = len(source.parameters) + len(source.derived), list[Relation]()
     lower, upper = np.full(n_p, -sys.float_info.max), np.full(n_p, sys.float_info.max)
     for condition in list_conditions(source):
-        k, relation = source.slot_index[condition.address], condition.relation
+        k, relation = source.parameter_indices[condition.address], condition.relation
         if condition.addresses:
-            relations.append((k, [source.slot_index[term] for term in condition.addresses], RELATIONS[relation]))
+            relations.append((k, [source.parameter_indices[term] for term in condition.addresses], RELATIONS[relation]))
             continue
         bound = float(condition.bound)
         if relation in (">", ">="):
@@ -346,7 +349,7 @@ def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.
     Conditions are tested first, then parameters, derived values, undefined expressions and clearances. `is_given`: mask
     of the given parameters, whose expressions in the file are not used.
     """
-    value_by_address = {parameter.address: float(p[k]) for k, parameter in enumerate(source.slots)}
+    value_by_address = {parameter.address: float(p[k]) for k, parameter in enumerate(source.parameters)}
     for condition in list_conditions(source):  # first: lengths that form no triangle give a point of NaN
         bound = (
             sum(value_by_address[address] for address in condition.addresses)
@@ -355,25 +358,25 @@ def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.
         )
         is_known = math.isfinite(value_by_address[condition.address]) and math.isfinite(bound)
         if is_known and not RELATIONS[condition.relation](value_by_address[condition.address], bound):
-            unit = next(parameter.unit for parameter in source.slots if parameter.address == condition.address)
+            unit = next(parameter.unit for parameter in source.parameters if parameter.address == condition.address)
             raise BadValueError(
                 f"{condition.address} is {_format_value(value_by_address[condition.address], unit)}"
                 f"{_format_changed_parameters(source, condition, value_by_address)}: {condition.message}"
                 + (f" ({condition.bound} is {_format_value(bound, unit)})" if isinstance(condition.bound, str) else "")
                 + f"; expected {format_conditions(source, condition.address)}"
             )
-    for parameter in source.slots:
+    for parameter in source.parameters:
         if not math.isfinite(value_by_address[parameter.address]):
             raise BadValueError(
                 f"{parameter.address} is {value_by_address[parameter.address]}: not finite with these parameters"
             )
-    for k, derived_value in enumerate(p[len(source.slots) :].tolist()):
+    for k, derived_value in enumerate(p[len(source.parameters) :].tolist()):
         if not math.isfinite(derived_value):
             raise BadValueError(
                 describe_zero_inertia(value_by_address, source.derived[k])
                 or _format_overflow_message(source, value_by_address, k, derived_value)
             )
-    if message := describe_undefined_number(source, p, is_given) or describe_unresolved_clearance(source, p):
+    if message := describe_undefined_part(source, p, is_given) or describe_unresolved_clearance(source, p):
         raise BadValueError(message)
 
 
@@ -384,7 +387,7 @@ def _format_overflow_message(
 
     value_by_address: parameters; derived_index: index in source.derived; derived_value: infinite or NaN.
     """
-    index, name = len(source.slots) + derived_index, source.derived[derived_index]
+    index, name = len(source.parameters) + derived_index, source.derived[derived_index]
     constant_names = (
         f"{joint.name}.{constant_name}"
         for joint in source.clearances
@@ -393,7 +396,7 @@ def _format_overflow_message(
     )
     extreme_parameters = [
         parameter
-        for parameter in source.slots
+        for parameter in source.parameters
         if not parameter.words and abs(math.log10(abs(value_by_address[parameter.address]) or 1.0)) > MAX_DECADES
     ]
     message = ", ".join(
@@ -413,17 +416,16 @@ def list_conditions(source: KernelSource) -> tuple[Condition, ...]:
 
     A velocity floor must be positive, also where the file has no condition for it.
     """
-    gains = [parameter.address for parameter in source.slots if parameter.address.startswith("baumgarte.")]
+    addresses = [parameter.address for parameter in source.parameters]
+    gains = [address for address in addresses if address.startswith("baumgarte.")]
     gain_limits = ((">=", 0.0, "a negative gain increases drift"), ("<=", MAX_GAIN, "its square overflows"))
-    floor_addresses = {parameter.address for parameter in source.slots if parameter.address.endswith(".velocity_floor")}
+    floor_addresses = {address for address in addresses if address.endswith(".velocity_floor")}
     unconditioned_floors = sorted(floor_addresses - {condition.address for condition in source.conditions})
-    floor_conditions = (
-        Condition(floor, ">", 0.0, "the least impact velocity is positive") for floor in unconditioned_floors
-    )
+    floor_limit = (">", 0.0, "the least impact velocity is positive")
     return (
         *source.conditions,
         *(Condition(gain, *limit) for gain in gains for limit in gain_limits),
-        *floor_conditions,
+        *(Condition(floor, *floor_limit) for floor in unconditioned_floors),
     )
 
 
@@ -439,11 +441,11 @@ def _format_changed_parameters(
 
     value_by_address: parameters in SI. Changed are those that differ from the file's values.
     """
-    if not any(parameter.address == condition.address and parameter.follows for parameter in source.slots):
+    if not any(parameter.address == condition.address and parameter.follows for parameter in source.parameters):
         return ""
     changed = [
         f"{parameter.address.removeprefix('parameters.')} = {_format_value(value, parameter.unit)}"
-        for parameter in source.slots
+        for parameter in source.parameters
         if parameter.address.startswith("parameters.")
         and (value := value_by_address[parameter.address]) != parameter.default
     ]

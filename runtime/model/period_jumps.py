@@ -39,7 +39,7 @@ def iterate_period_jump_warnings(
 @cache_by_values
 def list_periodic_drives(source: KernelSource) -> tuple[ExpressionInfo, ...]:
     """Return the expressions of drives with a curve and `mod`."""
-    drives = (info for info in source.written if info.address.startswith("drives."))
+    drives = (info for info in source.file_expressions if info.address.startswith("drives."))
     return tuple(info for info in drives if '"curve"' in info.tree and '"mod"' in info.tree)
 
 

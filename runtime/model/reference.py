@@ -38,7 +38,7 @@ def check_reference_values(compiled: CompiledModel) -> None:
         _compare_parameter_values(
             compiled,
             stored_values,
-            _compute_parameter_values(compiled, make_given_parameters(compiled.source.slots, parity)),
+            _compute_parameter_values(compiled, make_given_parameters(compiled.source.parameters, parity)),
         )
     for state in reference["states"]:
         values = state["values"]
@@ -54,7 +54,10 @@ def _compute_parameter_values(compiled: CompiledModel, values_by_index: Mapping[
 
     `values_by_index` maps indices to values (SI).
     """
-    values, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=np.uint8)
+    values, is_given = (
+        np.zeros(len(compiled.source.parameters)),
+        np.zeros(len(compiled.source.parameters), dtype=np.uint8),
+    )
     for k, value in values_by_index.items():
         values[k], is_given[k] = value, 1
     return compiled.prepare(values, is_given)
@@ -73,8 +76,9 @@ def _compare_parameter_values(compiled: CompiledModel, stored_values: Sequence[f
 
 
 def _evaluate_library(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
-    """Return the values of the library's functions at a stored state by name: Evaluation fields, Φ, ν, γ and M.
+    """Return the values of the library's functions at a stored state by name.
 
+    They are the fields COMPARED_FIELDS of an Evaluation, the first two columns of `clearance`, Φ, ν, γ and M.
     state: {"t", "q", "v", "memory"}; p: parameter values.
     """
     t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])
@@ -97,7 +101,7 @@ def _compare_values(
     """
     expected = np.array(stored_values, dtype=float)  # None is NaN
     is_known = np.isfinite(expected) & (
-        np.isfinite(values) if compiled.source.massless or compiled.source.indeterminate else True
+        np.isfinite(values) if compiled.source.massless_bodies or compiled.source.indeterminate else True
     )
     scale = np.abs(expected[is_known]).max(initial=0.0)
     differences = np.abs(values[is_known] - expected[is_known])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import compute_min_clearances, find_contour, find_contour_parameters
+from gudgeon.model.contours import compute_min_clearances, find_contour_parameters, get_contour_depths
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 MIN_RELATIVE_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
@@ -36,7 +36,7 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     return np.where(size > 0.0, size, 1.0)
 
 
-def compute_size_of_values(index_pairs: Sequence[tuple[int, int]], values: Sequence[float]) -> float:
+def compute_size_of_run(index_pairs: Sequence[tuple[int, int]], values: Sequence[float]) -> float:
     """Return the size (m) of the mechanism for one run, bit for bit as `compute_mechanism_sizes`, but with floats.
 
     index_pairs: those of `find_size_indices`; values: parameter values (n_parameters + n_derived,).
@@ -68,9 +68,9 @@ def select_lengths(source: KernelSource, p: Array) -> Array:
     return p.take(find_length_indices(source))
 
 
-def spread_lengths(source: KernelSource, lengths: Array) -> Array:
+def scatter_lengths(source: KernelSource, lengths: Array) -> Array:
     """Return parameter values (n_p,) from the result of `select_lengths`; all others are NaN."""
-    p = np.full(len(source.slots) + len(source.derived), np.nan)
+    p = np.full(len(source.parameters) + len(source.derived), np.nan)
     p[find_length_indices(source)] = lengths
     return p
 
@@ -98,16 +98,16 @@ def is_clearance_unresolved(source: KernelSource, p: Array, size: float) -> bool
 @cache_by_values
 def _measure_lengths(source: KernelSource, lengths: Array) -> tuple[float, bool]:
     """Return the size (m), and whether a clearance is below MIN_RELATIVE_CLEARANCE of it; cached for equal lengths."""
-    p = spread_lengths(source, lengths)
-    size = compute_size_of_values(find_size_indices(source), p.tolist())
+    p = scatter_lengths(source, lengths)
+    size = compute_size_of_run(find_size_indices(source), p.tolist())
     return size, is_clearance_unresolved(source, p, size)
 
 
 def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     """Return the norm's weights of coordinates, (n,): the diagonal `mass` of M, with a lower limit for inertias.
 
-    A point mass on a link has no moment of inertia. Its motion is regular, but M alone is not a norm for it. `mass` is
-    not changed.
+    The limit of each body is MIN_RELATIVE_INERTIA m S², with its mass m and the mechanism's size S. A point mass on a
+    link has no moment of inertia. Its motion is regular, but M alone is not a norm for it. `mass` is not changed.
     """
     weights = np.array(mass)
     lower_limit = MIN_RELATIVE_INERTIA * weights[1::3] * compute_size(source, p) ** 2
@@ -123,7 +123,9 @@ def find_size_indices(source: KernelSource) -> list[tuple[int, int]]:
     are (index, −1). Points without any coordinate in p are left out.
     """
     index_pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
-    lengths = [parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.slots]
+    lengths = [
+        parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.parameters
+    ]
     index_pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
     return [pair for pair in index_pairs if pair[0] >= 0]
 
@@ -159,7 +161,7 @@ def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
     """
     for joint, is_unresolved in zip(source.clearances, find_unresolved_clearances(source, p).tolist(), strict=True):
         if is_unresolved:
-            size, depths = compute_size(source, p), find_contour(source, p, joint.name)
+            size, depths = compute_size(source, p), get_contour_depths(source, p, joint.name)
             c = float(p[joint.clearance]) + (0.0 if depths is None else float(depths.min()))
             phrase = " at its contour" * (depths is not None)
             return (

@@ -169,7 +169,7 @@ class Batch:
 
     @property
     def _states(self) -> States:
-        """The states of all runs; every access by `q`, `v`, `work` or `state` reads it.
+        """Return the states of all runs, from which `q`, `v`, `work` and `state` are read.
 
         Raises GudgeonError if only series were stored.
         """
@@ -196,7 +196,7 @@ class Batch:
 
     @property
     def onsets(self) -> Array:
-        """Number of contacts that began at each joint with play, (n, n_clearances)."""
+        """Return the number of contacts that began at each joint with play, (n, n_clearances)."""
         joints = range(len(self.source.clearances))
         counts = [[int((impacts["joint"] == k).sum()) for k in joints] for impacts in self.impacts]
         return np.array(counts, dtype=np.int_).reshape(len(self), len(joints))
@@ -310,7 +310,7 @@ def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bo
 
     `p` (n, n_parameters + n_derived): parameters of all runs; `is_given` (n, n_parameters): mask of those given.
     """
-    given_parameters = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
+    given_parameters = [(source.parameters[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
     return {parameter.address: format_values_of_runs(parameter, values) for parameter, values in given_parameters}
 
 
@@ -437,7 +437,7 @@ def iterate_run_series(batch: Batch, names: Sequence[str]) -> Iterator[RunSeries
     evaluation_parts = find_evaluation_parts(batch.source, names)
 
     def make_block(first_run: int) -> list[RunSeries]:
-        """Return the rows of RUNS_PER_BLOCK runs from `first_run` on."""
+        """Return the series of RUNS_PER_BLOCK runs from `first_run` on; runs without samples are left out."""
         rows = (
             get_run_series(batch, i, names, evaluation_parts)
             for i in range(first_run, min(first_run + RUNS_PER_BLOCK, len(batch)))

@@ -19,7 +19,7 @@ from gudgeon.contract.boundary import MIN_TOUCHING_PENETRATION
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import compute_corner_approach, find_contour, interpolate_depth
+from gudgeon.model.contours import compute_corner_approach, get_contour_depths, interpolate_depth
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -117,7 +117,7 @@ def check_contact_samples(run: Result, run_with_peaks: Result | None = None) -> 
         faults += _find_sample_faults(
             run, joint, "force", is_free & (penetration[:, k] <= depth_limit) & carries_force, penetration[:, k], force
         )
-        if joint.name in run.source.rigid and run.compiled is not None:
+        if joint.name in run.source.rigid_joints and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             pulls = ~is_free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
             faults += _find_sample_faults(run, joint, "pull", pulls, penetration[:, k], force)
@@ -165,10 +165,10 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, max_touching_fo
     The excess must be above PEAK_TOL, or PEAK_TOL_FIXED for a fixed step. Joints with a film and rigid guides are
     skipped. `max_touching_force` (N) is the largest force of samples with |penetration| up to MIN_TOUCHING_PENETRATION.
     """
-    if joint.film or (joint.is_corner and joint.joint in run.source.rigid):
+    if joint.film or (joint.is_corner and joint.joint in run.source.rigid_joints):
         return
     impacts = run.impacts[run.impacts["joint"] == k]
-    if joint.name in run.source.rigid:  # F_peak of a rigid impact is an impulse
+    if joint.name in run.source.rigid_joints:  # F_peak of a rigid impact is an impulse
         impacts = impacts[impacts["t_off"] != impacts["t_on"]]
     max_contact_force = float(impacts["F_peak"].max(initial=0.0))
     force_extremes = [
@@ -192,7 +192,7 @@ def _compute_bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
     first, second = _find_end_point_names(run, joint)
     ex, ey = (_compute_point_positions(run, second) - _compute_point_positions(run, first)).T
     delta = np.hypot(ex, ey) - float(run.p[joint.clearance])
-    if (depths := find_contour(run.source, run.p, joint.name)) is not None:
+    if (depths := get_contour_depths(run.source, run.p, joint.name)) is not None:
         delta -= interpolate_depth(depths, np.arctan2(ey, ex) - _get_body_angle(run, joint.first))
     return delta
 
@@ -204,7 +204,7 @@ def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
     of the bodies in the middle is `angle` of the joint, or else the direction of `axis`.
     """
     first, second = _find_end_point_names(run, joint)
-    parameter_indices = run.source.slot_index
+    parameter_indices = run.source.parameter_indices
     values = {
         key: float(run.p[parameter_indices[address]])
         if (address := f"joints.{joint.joint}.{key}") in parameter_indices
@@ -226,7 +226,7 @@ def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
 
 def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
     """Return whether the mechanism file specifies the mounting angle of the joint."""
-    return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.written)
+    return any(entry.address == f"joints.{joint.joint}.angle" for entry in run.source.file_expressions)
 
 
 def _find_end_point_names(run: Result, joint: ClearanceInfo) -> tuple[str, str]:

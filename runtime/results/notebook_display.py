@@ -69,7 +69,7 @@ def _iterate_scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
     yield "joints", _format_name_list([joint.name for joint in source.joints])
     yield "joints with play", _format_name_list([joint.name for joint in source.clearances])
     yield "drives", _format_name_list([drive.name for drive in source.drives])
-    yield "coordinates, rows of Φ", f"{len(source.coordinates)}, {len(source.rows)}"
+    yield "coordinates, rows of Φ", f"{len(source.coordinates)}, {len(source.equations)}"
     yield "formulation", source.formulation
 
 

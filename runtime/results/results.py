@@ -132,7 +132,7 @@ class Result(NotebookDisplay):
         """
         values_by_address = {
             parameter.address: format_parameter(parameter, float(number))
-            for parameter, number in zip(self.source.slots, self.p, strict=False)
+            for parameter, number in zip(self.source.parameters, self.p, strict=False)
         }
         short_names = {
             key.removeprefix("parameters."): value
@@ -308,10 +308,10 @@ class Result(NotebookDisplay):
 
         A parameter takes precedence over an output of the same name. Raises UnknownNameError.
         """
-        index = self.source.slot_index
+        index = self.source.parameter_indices
         k = index.get(f"parameters.{check_text(name, 'a name of a result')}", index.get(name))
         if k is not None:
-            return format_parameter(self.source.slots[k], float(self.p[k]))
+            return format_parameter(self.source.parameters[k], float(self.p[k]))
         if name in self:
             return self[name]
         raise self.make_unknown_name_error(name)
@@ -443,11 +443,11 @@ def make_evaluated_samples(
 ) -> EvaluatedSamples:
     """Return a result of samples as C stores them; of an Evaluation it can evaluate only the fields `field_names`.
 
-    `work` (N, 3); `discrete_states` (N, n_memory): approach speeds, friction modes, internal states; `state` (N,
-    n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
+    `work` (N, 3); `discrete_states` (N, n_discrete_states): approach speeds, friction modes, internal states; `state`
+    (N, n_clearances): contact codes. It has no diagnostics, impacts or overridden parameters. Works are NaN in a scene
     without masses.
     """
-    n_parameters = len(source.slots)
+    n_parameters = len(source.parameters)
     return EvaluatedSamples(
         compiled=compiled,
         source=source,
@@ -460,7 +460,7 @@ def make_evaluated_samples(
         accelerations=None,
         state=state,
         memory=discrete_states,
-        work=np.full_like(work, np.nan) if source.massless else work,
+        work=np.full_like(work, np.nan) if source.massless_bodies else work,
         impacts=np.zeros(0, IMPACT_DTYPE),
         diagnostics=cast(Diagnostics, None),
         parts=field_names,
@@ -473,8 +473,8 @@ def make_empty_result(source: KernelSource) -> EvaluatedSamples:
     Used to check names and units before there are results.
     """
     n, n_clearances = len(source.coordinates), len(source.clearances)
-    p = np.full(len(source.slots) + len(source.derived), np.nan)
-    empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
+    p = np.full(len(source.parameters) + len(source.derived), np.nan)
+    empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_discrete_states))
     return make_evaluated_samples(
         source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), FIELD_NAMES
     )

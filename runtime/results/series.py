@@ -105,7 +105,11 @@ def _build_catalogue(source: KernelSource) -> dict[str, Series]:
     a name in their expression is missing.
     """
     series_by_name: dict[str, Series] = {}
-    for series_of in (_iterate_body_series, _iterate_point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
+    for series_of in (
+        _iterate_body_series,
+        _iterate_point_series,
+        *(_MOTION_ALONE if source.massless_bodies else _PARTS),
+    ):
         series_by_name.update(series_of(source))
     for name, expression_json in source.outputs.items():
         if not find_missing_names(source, expression_json, series_by_name):
@@ -118,16 +122,17 @@ MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
 
 def explain_missing_masses(source: KernelSource) -> str:
     """Return why quantities that depend on masses are unknown ("S9 has no mass or no inertia"); "" if all are known."""
-    if not source.massless:
+    if not source.massless_bodies:
         return ""
-    return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
+    names = source.massless_bodies
+    return f"{', '.join(names)} {'has' if len(names) == 1 else 'have'} no mass or no inertia"
 
 
 def find_missing_names(source: KernelSource, expression_json: Any, available_names: Container[str]) -> list[str]:
     """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play.
     `available_names` contains the names of series; parameters and t are always available.
     """
-    parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.slots} | {"t"}
+    parameter_names = {parameter.address.removeprefix("parameters.") for parameter in source.parameters} | {"t"}
     used_names = [name.path for name in expression_tree.iterate_names(expression_tree.from_json(expression_json))]
     return [path for path in dict.fromkeys(used_names) if path not in available_names and path not in parameter_names]
 
@@ -290,7 +295,7 @@ def _iterate_state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     State variables without a name have no series.
     """
     first_index = len(source.clearances) + len(source.frictions)
-    for k, name in enumerate(source.states):
+    for k, name in enumerate(source.internal_states):
         if name:
             meaning = "internal state of the joint's friction law"
             yield name, _make_stored_series("m", meaning, "memory", first_index + k)
@@ -332,7 +337,7 @@ def _iterate_element_series(source: KernelSource) -> Iterator[tuple[str, Series]
 
 def _iterate_multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield (name, series) of the Lagrange multiplier of each constraint equation: "lambda.NAME"."""
-    for k, row in enumerate(source.rows):
+    for k, row in enumerate(source.equations):
         unit = "N" if row.unit == "m" else "N*m"
         yield (
             f"lambda.{row.name}",
@@ -396,8 +401,8 @@ def _make_output_series(
     expression = expression_tree.from_json(expression_json)
     used_names = {name_node.path for name_node in expression_tree.iterate_names(expression)}
     units = {"t": "s"} | {path: series_by_name[path].unit for path in used_names if path in series_by_name}
-    units |= {parameter.address.removeprefix("parameters."): parameter.unit for parameter in source.slots}
-    units |= {parameter.address: parameter.unit for parameter in source.slots}
+    units |= {parameter.address.removeprefix("parameters."): parameter.unit for parameter in source.parameters}
+    units |= {parameter.address: parameter.unit for parameter in source.parameters}
 
     def compute(run: Result) -> Array:
         """Return the values (N,) of the expression at the samples of a run."""
@@ -426,9 +431,9 @@ def make_unknown_series_error(
     if name in source.outputs:
         missing = ", ".join(find_missing_names(source, source.outputs[name], available_series))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
-        hint = MASSLESS_HINT if source.massless else hint
+        hint = MASSLESS_HINT if source.massless_bodies else hint
         return UnknownNameError(f"output {name!r} needs {missing}, which scene {source.scene!r} lacks", hint=hint)
-    if (reason := explain_missing_masses(source)) and name in get_catalogue(replace(source, massless=())):
+    if (reason := explain_missing_masses(source)) and name in get_catalogue(replace(source, massless_bodies=())):
         return UnknownNameError(f"{name!r} is not known: {reason}", hint=MASSLESS_HINT)
     nearest_names = find_near_names(name, available_series)
     hint = f"nearest: {', '.join(nearest_names)}" if nearest_names else "run.names lists all names"
@@ -446,7 +451,7 @@ def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
 
 def list_parameter_names(source: KernelSource) -> set[str]:
     """Return the addresses of a scene's run-time parameters, and the short names of its `parameters`."""
-    addresses = {parameter.address for parameter in source.slots}
+    addresses = {parameter.address for parameter in source.parameters}
     return addresses | {address.removeprefix("parameters.") for address in addresses}
 
 

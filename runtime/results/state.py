@@ -50,7 +50,7 @@ def make_state(
 
     `given`, `is_given` (n_parameters,): values and mask of these parameters. Other arrays as in State.
     """
-    given_slots = zip(source.slots, given, is_given, strict=True)
+    given_slots = zip(source.parameters, given, is_given, strict=True)
     parameters = {slot.address: format_parameter(slot, float(x)) for slot, x, mask in given_slots if mask}
     return State(
         source.mechanism,

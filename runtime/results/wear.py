@@ -291,8 +291,10 @@ def find_bearing_parameters(source: KernelSource, joint: str) -> tuple[int, int,
     """
     clearance = next(joint_info for joint_info in source.clearances if joint_info.name == joint)
     radius = clearance.constants["R_i"]
-    address_of_bearing = source.slots[radius].address.rpartition(".")[0]
-    length = next(k for k, parameter in enumerate(source.slots) if parameter.address == f"{address_of_bearing}.length")
+    address_of_bearing = source.parameters[radius].address.rpartition(".")[0]
+    length = next(
+        k for k, parameter in enumerate(source.parameters) if parameter.address == f"{address_of_bearing}.length"
+    )
     return radius, clearance.constants["R_j"], length
 
 

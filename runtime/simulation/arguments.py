@@ -31,7 +31,7 @@ from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.default_step import evaluate_scene_end, evaluate_scene_number, evaluate_scene_step
+from gudgeon.model.default_step import evaluate_scene_end_time, evaluate_scene_option, evaluate_scene_step
 from gudgeon.model.parameters import insert_space_before_unit, read_parameter_value
 from gudgeon.simulation.audit import parse_audit_level
 
@@ -114,7 +114,7 @@ def evaluate_end_time(source: KernelSource, t_end: float | str | None, p: Array)
         return t_end
     values_by_name = {
         parameter.address.removeprefix("parameters."): (float(number), parameter.dimension)
-        for parameter, number in zip(source.slots, p, strict=False)
+        for parameter, number in zip(source.parameters, p, strict=False)
     }
     return evaluate_expression(insert_space_before_unit(t_end), "t_end", (0, 0, 1), values_by_name)
 
@@ -146,10 +146,10 @@ def compute_output_times(
             None if t_end is None else parse_seconds("t_end", t_end), float(times[-1]), rounding
         )
         return times, requested
-    end = parse_seconds("t_end", evaluate_scene_end(source, p) if t_end is None else t_end)
+    end = parse_seconds("t_end", evaluate_scene_end_time(source, p) if t_end is None else t_end)
     if not end > t0:
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
-    intervals = evaluate_scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
+    intervals = evaluate_scene_option(source, "output", p, DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MAX_OUTPUT:
         raise BadValueError(f"output is {shorten_value(intervals)}: expected {OUTPUT}")
     _check_duration("t_end is", t0, end, 4 * int(intervals))
@@ -236,11 +236,13 @@ def find_required_variant(source: KernelSource, method: str, rtol: float | str |
     library. Raises BadValueError for such a run with an invalid `rtol`.
     """
     if method in STAGED:
-        return "" if source.stages or source.reason_without_jacobian else STAGES
-    if method == "auto" and source.taylor_below and not source.taylor and not has_step:
-        is_missing = adaptive.lacks_series(source, adaptive.parse_tolerance(rtol, ADAPTIVE, False)) and has_compiler()
+        return "" if source.has_stage_matrices or source.reason_without_jacobian else STAGES
+    if method == "auto" and source.max_taylor_tolerance and not source.taylor_file and not has_step:
+        is_missing = (
+            adaptive.lacks_taylor_series(source, adaptive.parse_tolerance(rtol, ADAPTIVE, False)) and has_compiler()
+        )
         return TAYLOR if is_missing else ""
-    return method if method in SMOOTH and not source.taylor else ""
+    return method if method in SMOOTH and not source.taylor_file else ""
 
 
 def select_method(source: KernelSource, method: str, has_step: bool) -> str:
@@ -260,9 +262,9 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
         fitting_methods = (
             *fitting_methods,
             ADAPTIVE,
-            *(() if source.states else driver.NAMES),
+            *(() if source.internal_states else driver.NAMES),
         )  # reference solvers integrate no internal states
-    if source.taylor:
+    if source.taylor_file:
         fitting_methods = (*fitting_methods, *SMOOTH)
     if method == "auto":
         return (
@@ -277,11 +279,11 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting_methods:
         reason = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
-        if source.rigid:
+        if source.rigid_joints:
             reason = source.reason_without_jacobian
-        elif source.states:
+        elif source.internal_states:
             reason = (
-                f"a law has an internal state ({next(filter(None, source.states))}),"
+                f"a law has an internal state ({next(filter(None, source.internal_states))}),"
                 " which reference solvers do not integrate"
             )
         *others, last = source.methods

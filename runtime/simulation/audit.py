@@ -79,11 +79,11 @@ class SampleAudit:
         compiled, N = problem.compiled, len(trajectory.t)
         self.compiled, self.problem, self.trajectory, self.source = compiled, problem, trajectory, compiled.source
         self.is_on = bool(problem.audit and N)
-        self.has_no_forces = bool(self.source.massless or self.source.indeterminate)
+        self.has_no_forces = bool(self.source.massless_bodies or self.source.indeterminate)
         self.joints = [
             k
             for k, joint in enumerate(self.source.clearances)
-            if not joint.film and joint.name not in self.source.rigid
+            if not joint.film and joint.name not in self.source.rigid_joints
         ]
         self.contact_forces = [_ContactForces() for _ in self.joints]
         self.samples = select_audit_samples_of_run(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
@@ -112,7 +112,7 @@ class SampleAudit:
         energy = float(np.abs(evaluation.energy).max(initial=0.0))
         self.largest_energy = energy if _exceeds(energy, self.largest_energy) else self.largest_energy
         if self.first_undefined is None:
-            row = _find_undefined_row(evaluation, bool(self.source.rigid))
+            row = _find_undefined_row(evaluation, bool(self.source.rigid_joints))
             self.first_undefined = None if row is None else float(self.trajectory.t[first + row])
 
     def _update_contact_force_maxima(self, first: int, evaluation: Evaluation) -> None:
@@ -190,7 +190,7 @@ class SampleAudit:
         of motion of single bodies are checked there too.
         """
         compiled, problem, trajectory, samples = self.compiled, self.problem, self.trajectory, self.samples
-        memory = trajectory.memory[samples] if compiled.n_memory else np.full((len(samples), 1), np.nan)
+        memory = trajectory.memory[samples] if compiled.n_discrete_states else np.full((len(samples), 1), np.nan)
         t, q = trajectory.t[samples], trajectory.q[samples]
         errors = np.zeros((len(samples), len(LIMITS)))
         given = [compiled.pointer(values) for values in (t, q, trajectory.v[samples], memory, problem.p)]
@@ -241,7 +241,7 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     Yields nothing for resumed runs, whose states may violate the constraints, and with rigid contacts, which may change
     the start. `size`: of the mechanism (m).
     """
-    if problem.state is not None or problem.compiled.source.rigid:
+    if problem.state is not None or problem.compiled.source.rigid_joints:
         return
     states = np.array((problem.q, problem.v, trajectory.q[0], trajectory.v[0]))  # of bodies: x, y, theta
     states[2:] -= states[:2]
@@ -268,7 +268,7 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
 @cache_by_values
 def list_given_coordinates(source: KernelSource) -> tuple[tuple[int, int], ...]:
     """Return pairs of indices for the coordinates in the file's `start.set`: of the coordinate and its parameter."""
-    indices = ((k, source.slot_index.get(f"start.set.{name}")) for k, name in enumerate(source.coordinates))
+    indices = ((k, source.parameter_indices.get(f"start.set.{name}")) for k, name in enumerate(source.coordinates))
     return tuple((k, i) for k, i in indices if i is not None and source.coordinates[k] in source.start_set)
 
 
@@ -364,7 +364,7 @@ def list_checks_left_out(source: KernelSource, method: str) -> set[str]:
     the constraint equations drift.
     """
     left_out = set[str]()
-    if source.massless or source.indeterminate:
+    if source.massless_bodies or source.indeterminate:
         left_out |= {"body", "power", "torque"}
     if method == "rk4" and source.formulation == "full":
         left_out |= {"rows", "rates", "power", "body"}

@@ -73,7 +73,7 @@ class BatchArguments:
         has_own_times = (
             isinstance(self.t_end, str)
             and has_names(insert_space_before_unit(self.t_end))
-            or bool(source.simulate_written)
+            or bool(source.simulate_expressions)
         )
         if self.ends is None and self.rows is None and not has_own_times:
             t, requested = compute_output_times(source, p[0], t0, self.t_end, self.output)
@@ -114,7 +114,7 @@ class BatchArguments:
         ):
             self.failures[i] = BadValueError(message)
             return None
-        is_shareable = self.rows is None and not source.simulate_written and isinstance(end, (int, float, str))
+        is_shareable = self.rows is None and not source.simulate_expressions and isinstance(end, (int, float, str))
         key = (type(end), end) if is_shareable else None
         if key in known_times:
             return known_times[key]
@@ -165,7 +165,7 @@ class BatchArguments:
             if duration / h > MAX_STEPS:
                 raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         except InputError as error:
-            if step is None and self.compiled.source.simulate_written:
+            if step is None and self.compiled.source.simulate_expressions:
                 self.failures[i] = BadValueError(str(error))
                 return 1.0
             if self.steps is None and self.ends is None and self.rows is None:

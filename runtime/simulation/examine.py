@@ -21,7 +21,7 @@ from numpy.polynomial.legendre import leggauss
 from gudgeon.contract.methods import ADAPTIVE, STEP_CONTROLLED_METHODS
 from gudgeon.errors import GudgeonError
 from gudgeon.language.argument_checks import check_integer
-from gudgeon.model.contours import find_contour, interpolate_depth
+from gudgeon.model.contours import get_contour_depths, interpolate_depth
 from gudgeon.results.contact_check import ContactCheck, check_contact_samples
 from gudgeon.results.diagnostics import Difference, Examination, IdealForce, JointContactStatistics
 from gudgeon.results.samples import prepend_start
@@ -120,7 +120,7 @@ def _examine_joints(
     examined_joints = tuple(
         _examine_joint(run, repetition, dry_repetition, k, joint, indices, weights) for k, joint in enumerate(joints)
     )
-    if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
+    if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid_joints:
         return examined_joints
     remainder = -float(
         weights @ repetition.evaluation.power[indices, 2]
@@ -213,13 +213,15 @@ def _examine_joint(
     products = ((dry_repetition[f"{name}.F{axis}"] * repetition[f"{name}.e{axis}"])[indices] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
         radial_force = sum(products) / e
-        if (depths := find_contour(run.source, run.p, name)) is not None:  # component along the penetration's gradient
+        if (
+            depths := get_contour_depths(run.source, run.p, name)
+        ) is not None:  # component along the penetration's gradient
             bearing = run.source.bodies[joint.first].name if joint.first >= 0 else None
             theta = repetition[f"{bearing}.theta"][indices] if bearing else 0.0
             angle = np.arctan2(repetition[f"{name}.ey"][indices], repetition[f"{name}.ex"][indices]) - theta
             radial_force = -repetition[f"{name}.Fn"][indices] / np.hypot(1.0, interpolate_depth(depths, angle, 1) / e)
         normal = np.where(e > 0.0, radial_force, 0.0) * repetition[f"{name}.deltadot"][indices]  # W, by the forces
-    rigid = name in run.source.rigid  # closed at δ = 0, where its force does no work along the normal
+    rigid = name in run.source.rigid_joints  # closed at δ = 0, where its force does no work along the normal
     touching = (repetition.state[indices, k] > 0) if rigid else joint.dry & (repetition[f"{name}.delta"][indices] > 0.0)
     slip = (dry_repetition[f"{name}.Ft"] * repetition[f"{name}.vt"])[indices]
     film_power = _compute_film_power(repetition, joint)[indices] if joint.film else np.zeros(len(indices))
@@ -262,10 +264,10 @@ def clear_oil_viscosities(compiled: CompiledModel, p: Array) -> Array:
 
     The derived parameters are computed again.
     """
-    slots = compiled.source.slots
-    values = p[: len(slots)].copy()
-    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
-    return compiled.prepare(values, np.ones(len(slots), dtype=bool))
+    parameters = compiled.source.parameters
+    values = p[: len(parameters)].copy()
+    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in parameters]] = 0.0
+    return compiled.prepare(values, np.ones(len(parameters), dtype=bool))
 
 
 def _compute_compression_time(run: Result, repetition: Result, k: int, name: str) -> float:
@@ -335,13 +337,13 @@ def _compute_ideal_forces(run: Result, ideal: Simulation | Result | None, notes:
     A Simulation is run with the same parameters and times. If it fails, a note is appended to `notes`. Return ()
     without play, masses or an ideal scene, and on failure.
     """
-    if ideal is None or run.source.massless or not run.source.clearances:
+    if ideal is None or run.source.massless_bodies or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
-        addresses = {parameter.address for parameter in ideal.source.slots}
+        addresses = {parameter.address for parameter in ideal.source.parameters}
         values = {
             parameter.address: run.parameters[parameter.address]
-            for parameter in run.source.slots
+            for parameter in run.source.parameters
             if parameter.address in addresses
         }
         try:

@@ -23,7 +23,7 @@ class FileStart:
 
     q: Array  # (n,)
     v: Array
-    memory: Array  # (n_memory,) discrete states: no contact, unknown modes
+    memory: Array  # (n_discrete_states,) discrete states: no contact, unknown modes
     guess_deviations: Mapping[str, float]  # as of find_guess_deviations
     notes: tuple[str, ...]  # on contacts without an onset
 
@@ -36,9 +36,9 @@ def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
     """
     check_journal_positions(compiled, p)
     start, deviations = _close_linkage(compiled, p)
-    no_contacts, source = np.full(compiled.n_memory, np.nan), compiled.source
+    no_contacts, source = np.full(compiled.n_discrete_states, np.nan), compiled.source
     # a journal without a start position in the file begins in the centre of its bearing
-    may_touch = bool(source.start_apart) or any(joint.is_corner for joint in source.clearances)
+    may_touch = bool(source.eccentricity_equations) or any(joint.is_corner for joint in source.clearances)
     check_redundant_equations(compiled, p, 0.0, start.q)
     notes = describe_contacts_without_onset(compiled, p, 0.0, start.q, start.v, no_contacts) if may_touch else ()
     return FileStart(start.q, start.v, no_contacts, deviations, notes)

@@ -90,7 +90,7 @@ def load_bytes(
     start = read if start is None else start
     with (
         EndingSignals(),
-        BackgroundCompilation(portable, quick=quick and may_compile_in_background(get_default_cache())) as ahead,
+        BackgroundCompilation(portable, unoptimized=quick and may_compile_in_background(get_default_cache())) as ahead,
     ):
         source, origin = find_kernel_source(
             data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, background=ahead

@@ -107,7 +107,7 @@ def find_first_jumps(
     first, known_jumps = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
     for drive, tree, search in _list_jump_searches(source):
         used = {f"parameters.{name.path}" for name in iterate_names(tree)}
-        columns = [k for k, parameter in enumerate(source.slots) if parameter.address in used]
+        columns = [k for k, parameter in enumerate(source.parameters) if parameter.address in used]
         for i, t1 in enumerate(ends):
             if i in excluded_runs or not t1 > t0:
                 continue

@@ -28,7 +28,7 @@ from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import iterate_names, list_functions
 from gudgeon.model.compiled import Array
 from gudgeon.model.file_expressions import read_expression_trees
-from gudgeon.model.parameters import prepare_run_values
+from gudgeon.model.parameters import compute_cached_run_values
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.results.lyapunov import Lyapunov, Section
 from gudgeon.results.results import Result
@@ -62,8 +62,8 @@ def explain_invalid_variational_equation(source: KernelSource) -> str:
     """
     if source.reason_without_jacobian:
         return source.reason_without_jacobian
-    if source.states:
-        return f"a law has an internal state, {next(filter(None, source.states))}, which is not a coordinate"
+    if source.internal_states:
+        return f"a law has an internal state, {next(filter(None, source.internal_states))}, which is not a coordinate"
     if source.frictions:
         return f"{source.frictions[0]} sticks and slips: its constraint equations change"
     if source.rate_jumps:
@@ -262,7 +262,7 @@ def _compute_settled_start(
     """
     state = None if start is None else copy_checked_state(simulation.source, start)
     given, is_given, _ = merge_parameters(simulation.compiled, state, parameters)
-    p, _ = prepare_run_values(simulation.compiled, given, is_given)
+    p, _ = compute_cached_run_values(simulation.compiled, given, is_given)
     start_time = evaluate_end_time(simulation.source, skip, p)
     duration = parse_seconds("skip", 0.0 if start_time is None else start_time)
     if not (math.isfinite(duration) and duration >= 0.0):

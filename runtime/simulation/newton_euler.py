@@ -79,7 +79,7 @@ def _build_force_table(source: KernelSource) -> ForceTable:
         for part in source.parts
         for name in (*part.ends, *part.options.values())
         if part.name in source.indeterminate
-        or part.name in source.rigid
+        or part.name in source.rigid_joints
         or (part, None) in elements_of_parts
         or (part.section == "joints" and bodies.intersection(part.options.values()))
     }
@@ -93,7 +93,10 @@ def _build_force_table(source: KernelSource) -> ForceTable:
     signs = signs[:n]
     has_known_forces = ~np.array([body.name in excluded_bodies for body in source.bodies], dtype=bool)
     has_known_moments = has_known_forces & ~signs[:, n_pairs:].any(axis=1)
-    gravity_components = ((0, source.slot_index.get("gravity.x")), (1, source.slot_index.get("gravity.y")))
+    gravity_components = (
+        (0, source.parameter_indices.get("gravity.x")),
+        (1, source.parameter_indices.get("gravity.y")),
+    )
     return ForceTable(
         signs,
         np.flatnonzero(has_known_forces),
@@ -130,9 +133,9 @@ def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
 
 def _resolve_number(source: KernelSource, address: str) -> Number | None:
     """Return the number at an address of the file as (index into p, 0) or (−1, value); None if it is an expression."""
-    if address in source.slot_index:
-        return source.slot_index[address], 0.0
-    trees = [json.loads(expression.tree) for expression in source.written if expression.address == address]
+    if address in source.parameter_indices:
+        return source.parameter_indices[address], 0.0
+    trees = [json.loads(expression.tree) for expression in source.file_expressions if expression.address == address]
     return (-1, float(trees[0])) if trees and isinstance(trees[0], int | float) else None
 
 

@@ -72,7 +72,7 @@ def passes_audit(problem: Problem, trajectory: Trajectory, times: Array) -> bool
         audited,
         checks.limits if is_audited else ffi.NULL,
         max(size[0], 1e-300),
-        ffi.NULL if is_resumed or compiled.source.rigid else start,
+        ffi.NULL if is_resumed or compiled.source.rigid_joints else start,
         *checks.drawn,
     )
     if not (passes and is_audited and n_samples >= MIN_SAMPLES):

@@ -117,7 +117,7 @@ class RunSetup:
     def has_journal_positions(self) -> bool:
         """Return whether the file's start places journals, whose positions must be checked for each run."""
         source = self.scene.source
-        return bool(source.start_apart) or any(joint.is_corner for joint in source.clearances)
+        return bool(source.eccentricity_equations) or any(joint.is_corner for joint in source.clearances)
 
     def make_run(self, t: Array, steps: Array) -> ReusableRun:
         """Allocate and return the ReusableRun for sample times t (N,) and fixed steps (N_ROWS,), both in s."""
@@ -170,7 +170,7 @@ class PreparedRun:
         self._arguments = arguments | checked | {"output": self._output, "peaks": self._peaks}
         check_sample_memory(setup.scene.compiled, len(t))
         is_expression = isinstance(self._t_end, str) and has_names(insert_space_before_unit(self._t_end))
-        self._has_variable_times = is_expression or bool(source.simulate_written)
+        self._has_variable_times = is_expression or bool(source.simulate_expressions)
         self._has_variable_step = setup.method == "rk4" and (setup.step is None or self._has_variable_times)
         self._t, self._shape, self._run = t, (len(setup.names),), None
         if not (setup.needs_simulate or self._peaks):
@@ -262,7 +262,7 @@ class PreparedRun:
         if run is None:
             return self._simulate(x)
         k = run.next_row
-        if not (self._setup.columns.compute_row(x, k) and run.update_tolerances(k)):
+        if not (self._setup.columns.compute_values_of_row(x, k) and run.update_tolerances(k)):
             return self._simulate(x)
         if self._has_journal_positions:
             check_journal_positions(run.compiled, run.arrays["p"][k])
@@ -289,7 +289,7 @@ class PreparedRun:
         if result.diagnostics.interrupted:
             raise KeyboardInterrupt
         if self._has_variable_times and self._run is None:
-            self._setup.columns.compute_row(x, 0)
+            self._setup.columns.compute_values_of_row(x, 0)
             self._t[:] = _check_count(self._compute_times(0)[0], len(self._t))
         self.extremes = np.array([[peak.min, peak.max] for peak in map(result.peak, self._peaks)]).reshape(-1, 2)
         return _pad_series(result, self.series, len(self._t) - self._n_skipped)

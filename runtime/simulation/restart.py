@@ -49,7 +49,7 @@ def copy_checked_state(source: KernelSource, start: Any) -> State:
     state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, always_copy=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    discrete_states = as_c_array(start.memory, "start.memory", (source.n_memory,), always_copy=True)
+    discrete_states = as_c_array(start.memory, "start.memory", (source.n_discrete_states,), always_copy=True)
     _check_discrete_states(source, state, discrete_states)
     return replace(
         start,
@@ -139,9 +139,9 @@ def _check_discrete_states(source: KernelSource, state: Array, discrete_states: 
         else:
             continue
         raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=HINT_FINAL)
-    first = len(discrete_states) - len(source.states)
-    for k, (name, z) in enumerate(zip(source.states, discrete_states[first:].tolist(), strict=True), first):
-        joint_of = (k - first) * len(state) // max(len(source.states), 1)
+    first = len(discrete_states) - len(source.internal_states)
+    for k, (name, z) in enumerate(zip(source.internal_states, discrete_states[first:].tolist(), strict=True), first):
+        joint_of = (k - first) * len(state) // max(len(source.internal_states), 1)
         if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
             message = f"start.memory[{k}], the internal state {name}, is {z:g}: expected a length (m), NaN while free"
             raise BadValueError(message, hint=HINT_FINAL)
@@ -253,10 +253,9 @@ def merge_parameters(
     changed = [k for k in np.flatnonzero(is_given).tolist() if p_before[k] != p[k]]
     if not changed:
         return values, mask, selected
-    slots = compiled.source.slots
     changes = [
-        f"{slots[k].address} {_format_value(p[k], slots[k])} (before {_format_value(p_before[k], slots[k])})"
-        for k in changed[:MAX_REPORTED]
+        f"{parameter.address} {_format_value(p[k], parameter)} (before {_format_value(p_before[k], parameter)})"
+        for k, parameter in ((k, compiled.source.parameters[k]) for k in changed[:MAX_REPORTED])
     ]
     omission_text = f" and {len(changed) - MAX_REPORTED} more" if len(changed) > MAX_REPORTED else ""
     return (
@@ -286,7 +285,7 @@ def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], boo
     Its arguments are the residuals Φ at the start (n_start_rows,) and the mechanism's size (m). It returns whether the
     constraint equations are violated by no more than MAX_VIOLATION.
     """
-    start_rows, rows = [row.name for row in compiled.source.start_rows], compiled.source.rows
+    start_rows, rows = [row.name for row in compiled.source.start_equations], compiled.source.equations
     indices = np.array([start_rows.index(row.name) for row in rows], dtype=np.intp)
     is_length = np.array([row.unit == "m" for row in rows], dtype=bool)
     known_size, limits = math.nan, np.zeros(len(rows))
@@ -333,7 +332,7 @@ def _format_violated_equations(
     The limit is relative to the mechanism's size for lengths, plus `terms` (m,), the sizes of the terms. At most
     MAX_REPORTED are named. `unit_suffix`: "/s" for velocities.
     """
-    rows, size = compiled.source.rows, compute_mechanism_size(compiled, p)
+    rows, size = compiled.source.equations, compute_mechanism_size(compiled, p)
     allowed = MAX_VIOLATION * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
     violated = [
         f"{row.name} ({x:.3g} {row.unit}{unit_suffix})"

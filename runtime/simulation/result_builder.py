@@ -135,7 +135,7 @@ def _build_notes(
     notes += _yield_unbounded_sample_note(compiled, problem, trajectory)
     notes += iterate_period_jump_warnings(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += yield_range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
-    if compiled.source.rigid:
+    if compiled.source.rigid_joints:
         notes += describe_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
         notes += _yield_stiff_film_note(compiled.source, problem, counts)
     notes += build_audit_notes(findings)
@@ -165,8 +165,8 @@ def _yield_stiff_film_note(source: KernelSource, problem: Problem, counts: Count
     if films and counts.steps > MAX_EXPLICIT_STEPS and math.isinf(problem.step):
         yield (
             f"{counts.steps} steps: the film in {', '.join(films)} is stiff, and no implicit method fits a scene whose"
-            f" contact in {source.rigid[0]} is a constraint (newton_restitution): with an elastic contact law there"
-            " (hertz with a stiffness), method auto makes long steps"
+            f" contact in {source.rigid_joints[0]} is a constraint (newton_restitution): with an elastic contact law"
+            " there (hertz with a stiffness), method auto makes long steps"
         )
 
 
@@ -421,7 +421,7 @@ def _add_notes(run: Result, notes_to_add: Sequence[str]) -> Result:
 
 def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:
     """Return the trajectory with works of NaN if the scene has no masses; otherwise the same object."""
-    if not compiled.source.massless:
+    if not compiled.source.massless_bodies:
         return trajectory
     return replace(trajectory, work=np.full_like(trajectory.work, np.nan))
 

@@ -18,7 +18,7 @@ from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
-from gudgeon.model.evaluation import FIELD_NAMES, find_rounding_distance
+from gudgeon.model.evaluation import FIELD_NAMES, compute_rounding_distance
 from gudgeon.results.batch import depends_on_works, find_evaluation_parts
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
@@ -71,7 +71,7 @@ class RunInterpolant:
         self.needs_works = any(depends_on_works(self.source, name) for name in requested)
         self.is_kinematic = self.source.methods == (KINEMATIC,)
         self.has_films = any(joint.film for joint in self.source.clearances)
-        self.has_elastic_contact = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
+        self.has_elastic_contact = any(joint.joint not in self.source.rigid_joints for joint in self.source.clearances)
         self.first: Steps | None = None  # first state of the run: energies count from it
         self.n_without_accelerations = 0  # number of states without accelerations
         self.cached: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # cached evaluations between states
@@ -196,7 +196,7 @@ class RunInterpolant:
         t = steps.t
         if self.compiled.has_mod_in_drives and not self.is_kinematic:  # step ends have the rates before a jump
             since = t - np.maximum.accumulate(np.where(steps.is_after_jump, t, -np.inf))
-            t = np.where(since > 4.0 * find_rounding_distance(t), t - 2.0 * find_rounding_distance(t), t)
+            t = np.where(since > 4.0 * compute_rounding_distance(t), t - 2.0 * compute_rounding_distance(t), t)
         while True:
             try:
                 states = (
@@ -207,7 +207,7 @@ class RunInterpolant:
                 evaluation = self.compiled.evaluate(*states, self.p, field_names=self.parts)
                 break
             except SolverError as error:
-                remaining = is_solvable & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))
+                remaining = is_solvable & (np.abs(t - error.time) > 4.0 * compute_rounding_distance(t))
                 is_solvable = remaining if (remaining != is_solvable).any() else np.zeros_like(is_solvable)
         if is_solvable.all():
             return evaluation, is_solvable
@@ -226,7 +226,7 @@ class RunInterpolant:
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
         q, v = self._interpolate_motion(k, t, s)
         discrete_states = np.repeat(x.memory[k : k + 1], len(t), axis=0)
-        states = slice(discrete_states.shape[1] - len(self.source.states), None)
+        states = slice(discrete_states.shape[1] - len(self.source.internal_states), None)
         discrete_states[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
         works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)

@@ -70,7 +70,7 @@ class ReusableSampleAudit:
         compiled, (y, latched, p) = self.run.compiled, self._rows[k]
         if self.is_resumed and len(samples) > 1:
             samples = samples[samples > 0]
-        width, n_discrete = 2 * compiled.n + N_WORK, max(compiled.n_memory, 1)
+        width, n_discrete = 2 * compiled.n + N_WORK, max(compiled.n_discrete_states, 1)
         return [
             (
                 (self._t + i, y + width * i, y + (width * i + compiled.n), latched + n_discrete * i, p),

@@ -70,8 +70,8 @@ def check_samples(
             outputs.add_samples(samples)
     all_energy, all_slip = (parts[0] if len(parts) == 1 else np.concatenate(parts) for parts in (energy, slip))
     balance = compute_energy_balance(all_energy, x.work, poll)
-    notes = () if compiled.source.massless else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
-    notes += () if compiled.source.massless else _build_coarse_step_note(problem, *balance)
+    notes = () if compiled.source.massless_bodies else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
+    notes += () if compiled.source.massless_bodies else _build_coarse_step_note(problem, *balance)
     notes += outputs.build_notes()
     if compiled.source.frictions:
         notes += _build_undetermined_friction_notes(problem, x.t[skipped:], x.memory[skipped:], all_slip[skipped:])
@@ -170,7 +170,9 @@ def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array
         mode, slip = memory[:, len(source.clearances) + k], slips[:, k]
         rests = (mode != 0.0) & ((mode == MODE_CONSTRAINED) | (np.abs(slip) <= MAX_STICK_SPEED))
         rests_successively = rests[1:] & rests[:-1]
-        static = source.slot_index.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
+        static = source.parameter_indices.get(
+            f"forces.{name}.static"
+        )  # None: the file has 0 N, which no parameter changes
         if rests_successively.any() and static is not None and problem.p[static] > 0.0:
             t_rest, count = float(t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
             notes.append(

@@ -37,11 +37,11 @@ class SampleReader:
             and (
                 run.compiled.has_mod_in_drives
                 or run.compiled.may_drive_acceleration_jump
-                or source.massless
+                or source.massless_bodies
                 or source.indeterminate
             )
         )
-        self._is_reusable = is_simple and self.n_samples <= MAX_SAMPLES and not source.massless
+        self._is_reusable = is_simple and self.n_samples <= MAX_SAMPLES and not source.massless_bodies
         self._samples = [_ReusableSamples(run, k, self.parts) for k in range(N_ROWS if self._is_reusable else 0)]
         self._columns = [[self._find_column(samples, name) for name in names] for samples in self._samples]
 
@@ -87,7 +87,7 @@ class _ReusableSamples:
         compiled, x, n = run.compiled, run.arrays, run.compiled.n
         y, pointer = x["y"][k], compiled.pointer
         joints = len(compiled.source.clearances)
-        memory, state = x["discrete_states"][k][:, : compiled.n_memory], x["state"][k][:, :joints]
+        memory, state = x["discrete_states"][k][:, : compiled.n_discrete_states], x["state"][k][:, :joints]
         self.result = make_evaluated_samples(
             compiled.source,
             compiled,

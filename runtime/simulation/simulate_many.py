@@ -27,10 +27,10 @@ from gudgeon.model.contours import read_contours, select_contours_of_run
 from gudgeon.model.evaluation import check_sample_memory
 from gudgeon.model.parameter_sets import (
     ParameterSets,
-    prepare_values_of_runs,
+    compute_parameter_values_of_runs,
     read_each_run,
-    read_parameter_rows,
-    read_uniform_rows,
+    read_parameter_sets,
+    read_runs_with_equal_names,
 )
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.results.batch import (
@@ -117,7 +117,7 @@ def simulate_many(
     selected = select_method(source, method, step is not None)
     tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
     options = _BatchOptions(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
-    p, p_motion, failures = prepare_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
+    p, p_motion, failures = compute_parameter_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
     failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
     check_sample_memory(compiled, times.max_count, len(p), series, find_evaluation_parts(source, series or ()), workers)
@@ -206,7 +206,7 @@ class _Starts:
         contours: dict[str, Array],
     ) -> None:
         self.compiled, self.contours = simulation.compiled, contours
-        rows, self.failures = read_parameter_rows(parameters)
+        rows, self.failures = read_parameter_sets(parameters)
         count = next((len(contour) for contour in contours.values() if contour.ndim == 2), len(rows))
         if count != len(rows) and len(rows) > 1:
             hint = "one contour, or one for every run"
@@ -222,7 +222,7 @@ class _Starts:
             run_arguments.count_runs(len(rows))
         self.t = self.states[0].t if self.states else 0.0
         uniform_values = (
-            None if self.states or contours else read_uniform_rows(simulation.source, rows)
+            None if self.states or contours else read_runs_with_equal_names(simulation.source, rows)
         )  # not None: no run has notes on choices
         self.remarks: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
         self._merged_inputs: tuple[object, ...] = (self, self)  # of the last run: its parameters, those of its state
@@ -254,7 +254,7 @@ class _Starts:
         errors: dict[int, Any] = {}
         source = self.compiled.source
         has_journal_positions = (
-            source.start_apart or any(joint.is_corner for joint in source.clearances)
+            source.eccentricity_equations or any(joint.is_corner for joint in source.clearances)
         ) and not self.states
         for i in range(len(p) if has_journal_positions or self.states else 0):
             if i in failures:
@@ -396,7 +396,7 @@ class _Results:
             q0, counts, t0 = x["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
             range_notes = yield_range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
             notes_by_run[i] = (*notes_by_run.get(i, ()), *range_notes)
-        for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless else ():
+        for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless_bodies else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_missing_mass_note(source))
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_redundancy_note(source))
@@ -434,7 +434,7 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         runs.release_samples()
     else:
         y, state = times.select_requested_samples(x["y"]), times.select_requested_samples(x["state"])
-        work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless else y[:, :, 2 * n :]
+        work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless_bodies else y[:, :, 2 * n :]
         states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
     numbers = {**convert_counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(

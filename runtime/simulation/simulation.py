@@ -23,7 +23,7 @@ from gudgeon.loading.kernel_sources import Loading, read_unchanged_file
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_sample_memory
-from gudgeon.model.parameters import prepare_run_values, prepare_values
+from gudgeon.model.parameters import compute_cached_run_values, compute_parameter_values
 from gudgeon.results.notebook_display import NotebookDisplay
 from gudgeon.simulation.arguments import (
     MAX_STEPS,
@@ -178,7 +178,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         """Return the parameter values with the file's defaults, run-time ones and derived ones; computed once and
         cached.
         """
-        return prepare_values(self.compiled, {})[0]
+        return compute_parameter_values(self.compiled, {})[0]
 
     def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """Return ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
@@ -220,7 +220,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
 
         Raise AssemblyError if it does not close. None: no parameters are given.
         """
-        return assemble_start(self.compiled, prepare_values(self.compiled, parameters)[0])
+        return assemble_start(self.compiled, compute_parameter_values(self.compiled, parameters)[0])
 
     def simulate(
         self,
@@ -297,7 +297,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             given, is_given, remarks = merge_parameters(
                 self.compiled, initial_state, parameters, read_contours(self.source, contour)
             )
-            p, p_without_gains = prepare_run_values(self.compiled, given, is_given)
+            p, p_without_gains = compute_cached_run_values(self.compiled, given, is_given)
         t0 = 0.0 if initial_state is None else initial_state.t
         times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
         check_sample_memory(self.compiled, len(times))

@@ -21,7 +21,7 @@ from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.argument_checks import check_names, raise_bad_value
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import prepare_values, prepare_without_baumgarte
+from gudgeon.model.parameters import compute_parameter_values, compute_values_without_baumgarte
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.results import Result
 from gudgeon.results.series import check_series, get_catalogue
@@ -142,13 +142,13 @@ class ComparedScene:
     def __init__(self, simulation: Simulation, source: KernelSource, p: Array, rtol: float) -> None:
         self.compiled = simulation.compiled
         self.scene, self.names = simulation.source.scene, frozenset(get_catalogue(simulation.source))
-        addresses = {slot.address for slot in self.compiled.source.slots}
+        addresses = {slot.address for slot in self.compiled.source.parameters}
         values = {
             slot.address: format_parameter(slot, float(p[k]))
-            for k, slot in enumerate(source.slots)
+            for k, slot in enumerate(source.parameters)
             if slot.address in addresses
         }
-        self.parameter_arrays = prepare_values(self.compiled, values)
+        self.parameter_arrays = compute_parameter_values(self.compiled, values)
         self.failure_reason = ""  # message of the error that ended its integration; "" without one
         self.problem: Problem | None = None  # the problem from the last state on
         self.last_state: Steps | None = None  # last state of the integration
@@ -190,7 +190,7 @@ class ComparedScene:
         """Return the Problem of the assembled scene at t = 0, by method "auto" and without discrete states."""
         p, given, is_given = self.parameter_arrays
         assembled, method = assemble_start(self.compiled, p), select_method(self.compiled.source, "auto", False)
-        discrete_states = np.full(self.compiled.n_memory, np.nan)
+        discrete_states = np.full(self.compiled.n_discrete_states, np.nan)
         return Problem(
             self.compiled,
             p,
@@ -201,7 +201,7 @@ class ComparedScene:
             math.inf,
             method=method,
             rtol=self.rtol,
-            p_motion=prepare_without_baumgarte(self.compiled, given, is_given),
+            p_motion=compute_values_without_baumgarte(self.compiled, given, is_given),
             stop=False,
         )
 

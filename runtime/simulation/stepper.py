@@ -21,7 +21,7 @@ from gudgeon.integrators.reusable_run import N_ROWS
 from gudgeon.language.argument_checks import check_number
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array
-from gudgeon.model.parameters import prepare_values, read_given_parameters
+from gudgeon.model.parameters import compute_parameter_values, read_given_parameters
 from gudgeon.results.state import State, make_state
 from gudgeon.simulation.arguments import MIN_DURATION_S, MIN_ROUNDINGS, compute_output_times
 from gudgeon.simulation.prepared_run import RunSetup
@@ -78,7 +78,7 @@ class Stepper:
             name: self._run.arrays[name][0]
             for name in ("start", "y", "initial_discrete_states", "discrete_states", "codes", "state")
         }
-        self._phi, n = np.zeros(len(setup.scene.source.start_rows)), self._compiled.n
+        self._phi, n = np.zeros(len(setup.scene.source.start_equations)), self._compiled.n
         self._q = self._arrays["start"][:n]
         pointer = self._compiled.pointer
         self._phi_arguments = pointer(self._q), pointer(setup.columns.p[0]), pointer(self._phi, is_written=True)
@@ -120,7 +120,7 @@ class Stepper:
             self._q,
             x["start"][n:],
             x["codes"][: len(source.clearances)],
-            x["initial_discrete_states"][: source.n_memory],
+            x["initial_discrete_states"][: source.n_discrete_states],
         )
         return make_state(source, *given, self._t, *motion)
 
@@ -210,8 +210,8 @@ class Stepper:
         """Compute parameter values and error tolerances for inputs x (n_inputs,) in row 0. Raises InputError."""
         assert self._run
         self._x_key = None
-        if not (self._setup.columns.compute_row(x, 0) and self._run.update_tolerances(0)):
-            prepare_values(self._compiled, self._setup.get_parameters(x))  # raises the error
+        if not (self._setup.columns.compute_values_of_row(x, 0) and self._run.update_tolerances(0)):
+            compute_parameter_values(self._compiled, self._setup.get_parameters(x))  # raises the error
         self._x_key = x.tobytes()
 
     def _set_state(self, start: State, x: Array) -> None:

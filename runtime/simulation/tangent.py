@@ -22,8 +22,8 @@ import numpy as np
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.integrators.adaptive import find_integrated_angles
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import compute_corner_penetration, find_contour, interpolate_depth
-from gudgeon.model.parameters import prepare_without_baumgarte
+from gudgeon.model.contours import compute_corner_penetration, get_contour_depths, interpolate_depth
+from gudgeon.model.parameters import compute_values_without_baumgarte
 from gudgeon.results.samples import prepend_start
 from gudgeon.simulation.neighbours import INITIAL_DISTANCE, DifferenceNorm, flatten_state
 
@@ -59,14 +59,15 @@ class Flow:
 
     def __init__(self, compiled: CompiledModel, run: Result) -> None:
         source = compiled.source
-        self.compiled, self.p = compiled, prepare_without_baumgarte(compiled, run.given, run.is_given)
+        self.compiled, self.p = compiled, compute_values_without_baumgarte(compiled, run.given, run.is_given)
         self.is_reduced = source.formulation == "reduced"
-        self.m, self.n_dep = (len(source.tree), len(source.chain)) if self.is_reduced else (compiled.n, 0)
+        sizes_if_reduced = len(source.tree_coordinates), len(source.driven_loop_coordinates)
+        self.m, self.n_dep = sizes_if_reduced if self.is_reduced else (compiled.n, 0)
         self.is_angle, self.joints = find_integrated_angles(source), len(source.clearances)
-        rows = [row.owner for row in source.start_rows]
+        rows = [row.owner for row in source.start_equations]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
         self.radial_clearances = [float(self.p[joint.clearance]) for joint in source.clearances]
-        self.depths = [find_contour(source, self.p, joint.name) for joint in source.clearances]
+        self.depths = [get_contour_depths(source, self.p, joint.name) for joint in source.clearances]
         first = (joint.first for joint in source.clearances)
         # index into q of the x coordinate of each bearing; −1: ground
         self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]
@@ -78,7 +79,7 @@ class Flow:
         self._full = np.zeros(compiled.n), np.zeros(compiled.n)
         self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
         self._reduce = [*self.make_pointers(*self._full), *p, *self.make_pointers(*self._reduced, is_written=True)]
-        self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_memory, 1))
+        self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_discrete_states, 1))
         self._a = np.zeros(max(m, 1))
         others = np.zeros(len(compiled.source.closures) + 1), np.zeros(N_WORK)
         self._rhs = [*self.make_pointers(*self._state), *p, *self.make_pointers(self._a, *others, is_written=True)]
@@ -129,7 +130,7 @@ class Flow:
         held[: len(discrete_states)] = discrete_states
         status = self.compiled.lib.gudgeon_reduced_rhs(t, *self._rhs)
         if status:
-            self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
+            self.compiled.check_pivot(status, t, self.compiled.source.integrated_pivots or None)
         return np.concatenate([y[m:], self._a[:m]])
 
     def compute_jacobian(self, t: float, y: Array, q_dep: Array, discrete_states: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.tree import Expr, evaluate, from_json, iterate_calls, iterate_names
-from gudgeon.language.undefined_parts import is_total_expression
+from gudgeon.language.undefined_parts import is_defined_everywhere
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import Array
@@ -39,11 +39,11 @@ def list_checked_expressions(source: KernelSource) -> tuple[_Expression, ...]:
     trees = {f"output {name}": from_json(tree) for name, tree in source.outputs.items() if name in catalogue}
     for info, tree in read_expression_trees(source, ("drives", "forces")):
         operands = [operand for call in iterate_calls(tree, "where") for operand in call.arguments[:2]]
-        if not all(map(is_total_expression, operands)):
+        if not all(map(is_defined_everywhere, operands)):
             trees[info.address] = tree
-    index = source.slot_index | {
+    index = source.parameter_indices | {
         address.removeprefix("parameters."): k
-        for address, k in source.slot_index.items()
+        for address, k in source.parameter_indices.items()
         if address.startswith("parameters.")
     }
     names = {name: {used.path for used in iterate_names(tree)} for name, tree in trees.items()}
@@ -77,7 +77,7 @@ class UndefinedOutputs:
         for k, expression in enumerate(self.expressions):
             inputs: dict[str, Any] = {name: samples[name] for name in expression.series_names}
             for name, index in expression.parameter_indices:
-                inputs[name] = format_parameter(self.source.slots[index], float(samples.p[index]))
+                inputs[name] = format_parameter(self.source.parameters[index], float(samples.p[index]))
             is_undefined = ~np.isfinite(evaluate(expression.tree, inputs.__getitem__))
             if not is_undefined.any():
                 continue

@@ -194,7 +194,7 @@ class WearObserver:
         )
         self.joint_index = [clearance.name for clearance in compiled.source.clearances].index(request.joint)
         self.joint = compiled.source.clearances[self.joint_index]
-        self.rigid = self.joint.name in compiled.source.rigid
+        self.rigid = self.joint.name in compiled.source.rigid_joints
         self.p = clear_oil_viscosities(compiled, self.interpolant.p) if self.joint.film else self.interpolant.p
         self.load, self.friction = np.zeros((2, request.points)), np.zeros((2, request.points))
         self.slip, self.first, self.last, self.n_states = 0.0, np.nan, np.nan, 0
@@ -241,7 +241,7 @@ class WearObserver:
         s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
         q, v = self._interpolate_motion(k, s)
         discrete_states = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
-        states = slice(discrete_states.shape[2] - len(self.compiled.source.states), None)
+        states = slice(discrete_states.shape[2] - len(self.compiled.source.internal_states), None)
         discrete_states[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, discrete_states))
         evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, field_names=("clearance",))

@@ -30,8 +30,8 @@ from gudgeon.language.argument_checks import (
     shorten_value,
 )
 from gudgeon.language.text_output import format_one_line
-from gudgeon.model.contours import find_contour, read_contours
-from gudgeon.model.parameter_sets import ParameterSets, read_given_parameters_of_runs, read_parameter_rows
+from gudgeon.model.contours import get_contour_depths, read_contours
+from gudgeon.model.parameter_sets import ParameterSets, read_given_parameters_of_runs, read_parameter_sets
 from gudgeon.results.wear import LAWS, POINTS, JointWearResult, SlidingLoads, SlidingRequest, WearRoundsResult
 from gudgeon.simulation.wear import CONTACT_MODELS, MAX_POINTS, check_joint_can_wear, parse_wear_rate
 
@@ -199,9 +199,9 @@ class WearLoop:
         values.
         """
         compiled, source = self.simulation.compiled, self.simulation.source
-        given, is_given = read_given_parameters_of_runs(source, read_parameter_rows(parameters)[0])
+        given, is_given = read_given_parameters_of_runs(source, read_parameter_sets(parameters)[0])
         for joint in self.wear_model.joints:
-            contour = find_contour(source, compiled.prepare_parameters_of_runs(given, is_given), joint)
+            contour = get_contour_depths(source, compiled.prepare_parameters_of_runs(given, is_given), joint)
             if contour is not None:
                 self.given.setdefault(joint, contour if len(contour) > 1 else contour[0])
 

@@ -14,7 +14,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_list, check_numbers, check_text
 from gudgeon.model.choices import find_word_index, format_parameter
 from gudgeon.model.compiled import Array
-from gudgeon.model.parameters import GAINS, prepare_values, read_given_parameters, read_parameter_value
+from gudgeon.model.parameters import GAINS, compute_parameter_values, read_given_parameters, read_parameter_value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
 
@@ -77,15 +77,17 @@ def make_axis(
     values = check_numbers(values, f"axis {name}")
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
-    source, p = simulation.source, prepare_values(simulation.compiled, parameters)[0]
+    source, p = simulation.source, compute_parameter_values(simulation.compiled, parameters)[0]
     indices = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
     first_value = float(p[indices[0]])
     if len(indices) > 1 and first_value == 0.0:
         raise BadValueError(
-            f"axis {name}: {source.slots[indices[0]].address} is 0: expected another value, for the ratios to it"
+            f"axis {name}: {source.parameters[indices[0]].address} is 0: expected another value, for the ratios to it"
         )
-    ratios = tuple((source.slots[k].address, float(p[k]) / first_value if len(indices) > 1 else 1.0) for k in indices)
-    return Axis(name, tuple(sorted(values)), source.slots[indices[0]].unit, ratios)
+    ratios = tuple(
+        (source.parameters[k].address, float(p[k]) / first_value if len(indices) > 1 else 1.0) for k in indices
+    )
+    return Axis(name, tuple(sorted(values)), source.parameters[indices[0]].unit, ratios)
 
 
 def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | None = None) -> Axis:
@@ -136,7 +138,7 @@ def make_clearance_axis(simulation: Simulation, values: Sequence[float], paramet
 
 def _find_choice_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
     """Return the run-time parameter with this address if it is a choice by name, such as a material, else None."""
-    return next((parameter for parameter in source.slots if parameter.address == name and parameter.words), None)
+    return next((parameter for parameter in source.parameters if parameter.address == name and parameter.words), None)
 
 
 def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
@@ -146,9 +148,9 @@ def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
     parameter of the group, UnknownNameError for an unknown address.
     """
     if name == "clearance":
-        indices = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
+        indices = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.parameters)))
     elif name in GROUPS:
-        indices = [k for k, parameter in enumerate(source.slots) if GROUPS[name](parameter.address)]
+        indices = [k for k, parameter in enumerate(source.parameters) if GROUPS[name](parameter.address)]
     else:
         return [int(np.flatnonzero(read_given_parameters(source, {name: 1.0})[1])[0])]
     if not indices:
@@ -164,7 +166,7 @@ def _drop_unused_materials(source: KernelSource, p: Array, indices: list[int]) -
     """
     choices = [
         (parameter, format_parameter(parameter, float(entry)))
-        for parameter, entry in zip(source.slots, p, strict=False)
+        for parameter, entry in zip(source.parameters, p, strict=False)
         if parameter.words
     ]
     choices = [
@@ -172,7 +174,11 @@ def _drop_unused_materials(source: KernelSource, p: Array, indices: list[int]) -
     ]
     selectable = {f"materials.{word}.E" for parameter, _ in choices for word in parameter.words}
     selected = {f"materials.{name}.E" for _, name in choices}
-    return indices if len(indices) < 2 else [k for k in indices if source.slots[k].address not in selectable - selected]
+    return (
+        indices
+        if len(indices) < 2
+        else [k for k in indices if source.parameters[k].address not in selectable - selected]
+    )
 
 
 def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter:
@@ -182,7 +188,7 @@ def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter
     """
     if name in SETTINGS:
         return RuntimeParameter(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))
-    return source.slots[_find_parameter_indices(source, name)[0]]
+    return source.parameters[_find_parameter_indices(source, name)[0]]
 
 
 def _parse_quantity(text: str) -> float | str:

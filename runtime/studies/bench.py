@@ -16,7 +16,7 @@ import numpy as np
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.language.argument_checks import check_callable, check_flag, check_mapping, check_numbers, check_positive
-from gudgeon.model.default_step import evaluate_end
+from gudgeon.model.default_step import evaluate_file_end_time
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.methods import ADAPTIVE, RhsTime, measure_rhs_time, select_methods
 from gudgeon.studies.runs import (
@@ -368,7 +368,7 @@ def _measure_kinematic_scene(
     references. t_end (s): None or 0 means the end of the scene's run. A failed run gets a row with the failure. Returns
     a SceneBench.
     """
-    window = SceneWindow(simulation, t_end or evaluate_end(simulation.compiled, parameters), parameters)
+    window = SceneWindow(simulation, t_end or evaluate_file_end_time(simulation.compiled, parameters), parameters)
     rows = []
     for index, count in enumerate(sample_counts):
         if progress:

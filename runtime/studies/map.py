@@ -23,8 +23,8 @@ from gudgeon.language.argument_checks import (
     check_optional_positive,
     check_text,
 )
-from gudgeon.model.default_step import evaluate_end
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.default_step import evaluate_file_end_time
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GAINS, Axis, make_axis, make_clearance_axis
 from gudgeon.studies.box import Range, judge_point, list_corners, sample_sobol_points
@@ -159,9 +159,9 @@ def compute_verdict_map(
     shortest_step = (
         min(setting.value for job in jobs for setting in job.settings) if default_setting.has_fixed_step else math.inf
     )
-    t_long = t_long or min(evaluate_end(simulation.compiled, parameter_values), MAX_LONG_RUN_STEPS * shortest_step) / (
-        10 if quick else 1
-    )
+    t_long = t_long or min(
+        evaluate_file_end_time(simulation.compiled, parameter_values), MAX_LONG_RUN_STEPS * shortest_step
+    ) / (10 if quick else 1)
     max_window = t_short or MAX_COMPARISON_STEPS * shortest_step / REFERENCE_STEP_DIVISOR / (10 if quick else 1)
     with TaskPool[_MapJob, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
         cell_lists = pool.map_in_threads(
@@ -240,7 +240,7 @@ def compute_verdict_box(
     )
     if not ranges:
         raise BadValueError("a box needs at least one range: --range name=low..high")
-    t_long = t_long or evaluate_end(simulation.compiled, parameters) / (10 if quick else 1)
+    t_long = t_long or evaluate_file_end_time(simulation.compiled, parameters) / (10 if quick else 1)
     group_axes = {
         name: check_instance(range_, f"addresses: {name}", Axis)
         for name, range_ in check_mapping(addresses, "addresses").items()
@@ -270,7 +270,7 @@ def compute_verdict_box(
     check_memory_of_cells(2.0 ** len(ranges) + count)
     points = [*list_corners(ranges), *sample_sobol_points(ranges, count)]
     for point in points:
-        prepare_values(simulation.compiled, find_point_parameters(point))
+        compute_parameter_values(simulation.compiled, find_point_parameters(point))
     with TaskPool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
         cells_or_none = pool.map_in_threads(judge_one_point, points)
     cells = tuple(
@@ -323,13 +323,13 @@ def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick:
     """
     if not simulation.source.clearances:
         return make_clearance_axis(simulation, ())
-    p = prepare_values(simulation.compiled, parameters)[0]
+    p = compute_parameter_values(simulation.compiled, parameters)[0]
     file_clearance = float(p[simulation.source.clearances[0].clearance])
     axis = make_clearance_axis(simulation, list_default_clearances(file_clearance, quick), parameters)
     allowed = []
     for c in axis.values:
         try:
-            prepare_values(simulation.compiled, {**parameters, **axis.build_parameters(c)})
+            compute_parameter_values(simulation.compiled, {**parameters, **axis.build_parameters(c)})
         except BadValueError:
             continue
         allowed.append(c)
@@ -382,7 +382,7 @@ def _build_jobs(
                 )
             )
     for job in jobs:
-        prepare_values(simulation.compiled, job.parameters)
+        compute_parameter_values(simulation.compiled, job.parameters)
     return jobs
 
 

@@ -15,8 +15,8 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.adaptive import MIN_RTOL
 from gudgeon.integrators.trajectory import Progress
 from gudgeon.model.compiled import Array
-from gudgeon.model.default_step import evaluate_end, evaluate_scene_end, evaluate_scene_step
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.default_step import evaluate_file_end_time, evaluate_scene_end_time, evaluate_scene_step
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.show.tables import format_seconds
@@ -222,8 +222,8 @@ def find_default_step(simulation: Simulation, parameters: Parameters | None = No
 
     parameters: as in `simulate`; None: the values of the file.
     """
-    p = prepare_values(simulation.compiled, parameters)[0]
-    return evaluate_scene_step(simulation.compiled, p, evaluate_scene_end(simulation.source, p))
+    p = compute_parameter_values(simulation.compiled, parameters)[0]
+    return evaluate_scene_step(simulation.compiled, p, evaluate_scene_end_time(simulation.source, p))
 
 
 def find_comparison_window(
@@ -237,7 +237,7 @@ def find_comparison_window(
     None means the values of the file.
     """
     parameters = dict(parameters or {})
-    max_window = min(max_window, evaluate_end(simulation.compiled, parameters))
+    max_window = min(max_window, evaluate_file_end_time(simulation.compiled, parameters))
     for power in range(N_PILOT_HALVINGS, -1, -1) if simulation.source.clearances else ():
         duration = max_window / 2**power
         pilot = attempt_run(simulation, np.linspace(0.0, duration, 3), setting, parameters)

@@ -13,8 +13,8 @@ import numpy as np
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.language.quantities import parse_quantity
 from gudgeon.model.compiled import Array
-from gudgeon.model.default_step import evaluate_scene_end
-from gudgeon.model.parameters import insert_space_before_unit, prepare_values
+from gudgeon.model.default_step import evaluate_scene_end_time
+from gudgeon.model.parameters import compute_parameter_values, insert_space_before_unit
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
@@ -72,11 +72,11 @@ def draw_parameters(
     failure: Exception | None = None
     for values, time_fraction in _yield_parameter_changes(simulation.source, rng, units or {}):
         try:
-            p = prepare_values(simulation.compiled, values)[0]
+            p = compute_parameter_values(simulation.compiled, values)[0]
             t = (
                 given_time
                 if given_time is not None
-                else float(f"{time_fraction * evaluate_scene_end(simulation.source, p):.2g}")
+                else float(f"{time_fraction * evaluate_scene_end_time(simulation.source, p):.2g}")
             )
             run = _simulate_until(simulation, values, t)
             if run.t[-1] < t:
@@ -98,7 +98,7 @@ def _yield_parameter_changes(
     """
     candidates = [
         parameter
-        for parameter in source.slots
+        for parameter in source.parameters
         if not (parameter.follows or parameter.words) and parameter.default != 0.0 and _may_vary(parameter.address)
     ]
     for spread in MAX_RELATIVE_CHANGES:

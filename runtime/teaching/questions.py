@@ -418,7 +418,7 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
     open_ = {*source.indeterminate, *(joint.joint for joint in source.clearances)}
     joint_names = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
     joint_names = [name for name in dict.fromkeys(joint_names) if f"{name}.Fx" in drawn.run]
-    if source.massless or not joint_names:
+    if source.massless_bodies or not joint_names:
         return
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second

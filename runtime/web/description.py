@@ -28,8 +28,8 @@ from gudgeon.language.undefined_parts import DIVIDING
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import MAX_STEP_FRACTION, T_END, estimate_default_step
-from gudgeon.model.file_expressions import find_partial_expressions
-from gudgeon.model.parameters import GAINS, list_conditions, prepare_values
+from gudgeon.model.file_expressions import list_possibly_undefined_expressions
+from gudgeon.model.parameters import GAINS, compute_parameter_values, list_conditions
 from gudgeon.model.sizes import find_size_indices
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
@@ -46,14 +46,14 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
     scene has no default step.
     """
     source = compiled.source
-    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.parameters)}
     values = {
         "mechanism": source.mechanism,
         "scene": source.scene,
         "title": source.title,
         "coordinates": source.coordinates,
         "bodies": [body.name for body in source.bodies],
-        "slots": [_format_parameter_json(parameter) for parameter in source.slots],
+        "slots": [_format_parameter_json(parameter) for parameter in source.parameters],
         "derived": source.derived,
         "conditions": [[item.address, item.relation, item.bound, item.message] for item in list_conditions(source)],
         "partials": [
@@ -63,7 +63,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
                 "slot": item.parameter_index,
                 "slots": dict(item.indices_by_name),
             }
-            for item in find_partial_expressions(source)
+            for item in list_possibly_undefined_expressions(source)
         ],
         "divides": sorted(DIVIDING),
         "gains": [parameter_indices[name] for name in GAINS if name in parameter_indices],
@@ -71,7 +71,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "begins": _select_first_page_method(source),
         "stiff": select_stiff_method(source, RTOL),
         "automatic": not source.is_explicit,
-        "pivots": source.motion_pivots,
+        "pivots": source.integrated_pivots,
         "start_pivots": source.start_pivots,
         "evaluation_pivots": source.pivots,
         "angles": find_integrated_angles(source).tolist(),
@@ -83,13 +83,13 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "rtol": RTOL,
         "felt_by_films": MAX_FILM_SPEED_ERROR,
         "reach": MAX_CORRECTION,
-        "memory": source.n_memory,
+        "memory": source.n_discrete_states,
         "events": [[event.name, event.action] for event in source.events],
         "widths": _count_array_columns(source),
         "unknown": _list_indeterminate_series(source),
         "left_out": _list_redundant_rows(compiled),
         "open": MAX_REDUNDANT_VIOLATION,
-        "rows": [[row.owner, row.unit] for row in source.start_rows],
+        "rows": [[row.owner, row.unit] for row in source.start_equations],
         "simulate": _collect_default_options(source),
         "step": _compute_default_step(compiled, drift_step),
         "start": _compute_stored_start(compiled),
@@ -135,7 +135,7 @@ def _count_array_columns(source: KernelSource) -> dict[str, int]:
     """Return the number of columns of each array that gudgeon_evaluate fills, in the order of its arguments."""
     return {
         "a": len(source.coordinates),
-        "multipliers": len(source.rows),
+        "multipliers": len(source.equations),
         "reactions": 3 * (len(source.joints) + len(source.guides)),
         "torques": len(source.drives),
         "clearance": 10 * len(source.clearances),
@@ -151,7 +151,7 @@ def _list_indeterminate_series(source: KernelSource) -> list[str]:
     """Return the names of the series that redundancy leaves indeterminate; they are NaN in a page as in Python."""
     owners = set(source.indeterminate)
     joint_series = {f"{name}.{component}" for name in owners for component in ("Fx", "Fy", "M", "torque", "force")}
-    multiplier_series = {f"lambda.{row.name}" for row in source.rows if row.owner in owners}
+    multiplier_series = {f"lambda.{row.name}" for row in source.equations if row.owner in owners}
     return sorted((joint_series | multiplier_series) & {*get_catalogue(source)})
 
 
@@ -178,13 +178,13 @@ def _format_point_json(source: KernelSource, point: PointInfo) -> list[int]:
 
 def _list_redundant_rows(compiled: CompiledModel) -> list[list[Any]]:
     """Return redundant constraint equations of the start: index, owner, whether the residual is a length."""
-    equations = compiled.source.start_rows
+    equations = compiled.source.start_equations
     return [[k, equations[k].owner, equations[k].unit == "m"] for k in list_redundant_equations(compiled)]
 
 
 def _collect_default_options(source: KernelSource) -> dict[str, Any]:
     """Return the scene's t_end, output and step by name: numbers, or expression trees of parameters."""
-    trees = {option.address.rpartition(".")[2]: json.loads(option.tree) for option in source.simulate_written}
+    trees = {option.address.rpartition(".")[2]: json.loads(option.tree) for option in source.simulate_expressions}
     return {"t_end": T_END, "output": DEFAULT_OUTPUT, **source.simulate, **trees}
 
 
@@ -196,7 +196,7 @@ def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> 
     """
     if "rk4" not in compiled.source.methods:
         return None if drift_step is None else [DRIFT_STEP_FRACTION, drift_step]
-    return [MAX_STEP_FRACTION, estimate_default_step(compiled, prepare_values(compiled, {})[0], math.inf)]
+    return [MAX_STEP_FRACTION, estimate_default_step(compiled, compute_parameter_values(compiled, {})[0], math.inf)]
 
 
 def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
@@ -205,7 +205,7 @@ def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
     For mechanisms of MIN_SPARSE_COORDINATES or more coordinates it is always returned, with "large", since C cannot
     assemble them.
     """
-    p = prepare_values(compiled, {})[0]
+    p = compute_parameter_values(compiled, {})[0]
     if compiled.n < MIN_SPARSE_COORDINATES:
         start_position = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
         if start_position is not None and np.isfinite(start_position[1]).all():
@@ -215,7 +215,7 @@ def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
     start_json = {
         "q": start.q.tolist(),
         "v": start.v.tolist(),
-        "rows": len(compiled.source.start_rows),
+        "rows": len(compiled.source.start_equations),
         "values": array_sizes,
     }
     return start_json | ({"large": True} if is_large else {})

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.file_expressions import find_partial_expressions
+from gudgeon.model.file_expressions import list_possibly_undefined_expressions
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import build_description
 from gudgeon.web.module import compile_simulator
@@ -62,7 +62,9 @@ def build_script(source: KernelSource) -> str:
     The check for undefined expressions is included if the scene needs it.
     """
     sources = [
-        read_script(name) for name in SIMULATOR_FILES if name != UNDEFINED_PARTS or find_partial_expressions(source)
+        read_script(name)
+        for name in SIMULATOR_FILES
+        if name != UNDEFINED_PARTS or list_possibly_undefined_expressions(source)
     ]
     return "\n".join(
         (

@@ -113,7 +113,9 @@ def _describe_drawing(rig: Rig) -> dict[str, Any]:
             )
         )
     return {
-        "looks": [make_css_class(moving_shape.shape.role, moving_shape.shape.tint) for moving_shape in rig.shapes],
+        "looks": [
+            make_css_class(moving_shape.shape.role, moving_shape.shape.colour_index) for moving_shape in rig.shapes
+        ],
         "pixels": pixels_per_metre,
     }
 

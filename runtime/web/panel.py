@@ -105,21 +105,26 @@ def _choose_first_path(rig: Rig) -> str:
 
 
 def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
-    """Return two lists of (role, tint), each CSS class once: of shapes, and of names.
+    """Return two lists of (role, colour index), each CSS class once: of shapes, and of names.
 
     Roles that exist on pages only are included.
     """
-    shape_styles = dict.fromkeys((moving_shape.shape.role, moving_shape.shape.tint) for moving_shape in rig.shapes)
+    shape_styles = dict.fromkeys(
+        (moving_shape.shape.role, moving_shape.shape.colour_index) for moving_shape in rig.shapes
+    )
     unique_shape_styles = {
-        make_css_class(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in PAGE_ROLES)]
+        make_css_class(role, colour_index): (role, colour_index)
+        for role, colour_index in [*shape_styles, *((role, 0) for role in PAGE_ROLES)]
     }
-    name_styles = {make_css_class(role, tint): (role, tint) for role, tint in _iterate_name_styles(rig)}
+    name_styles = {
+        make_css_class(role, colour_index): (role, colour_index) for role, colour_index in _iterate_name_styles(rig)
+    }
     return list(unique_shape_styles.values()), list(name_styles.values())
 
 
 def _iterate_name_styles(rig: Rig) -> Iterator[tuple[str, int]]:
-    """Yield (role, tint) of each name of the drawing; the tint is that of its part."""
-    tints = {moving_shape.shape.part: moving_shape.shape.tint for moving_shape in rig.shapes}
+    """Yield (role, colour index) of each name of the drawing; the colour index is that of its part."""
+    tints = {moving_shape.shape.part: moving_shape.shape.colour_index for moving_shape in rig.shapes}
     for label in rig.sketch.labels:
         yield label.role, tints.get(label.part, 0)
 
@@ -133,7 +138,7 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
         _compute_name_offsets(rig.sketch, WIDE_INCHES),
         _compute_name_offsets(rig.sketch, NARROW_INCHES),
     )
-    for label, (role, tint) in zip(rig.sketch.labels, _iterate_name_styles(rig), strict=True):
+    for label, (role, colour_index) in zip(rig.sketch.labels, _iterate_name_styles(rig), strict=True):
         shifts = [
             [round(x, 1), round(-y, 1)]
             for x, y in (shifts_by_part.get(label.part, (0.0, 0.0)) for shifts_by_part in (wide_shifts, narrow_shifts))
@@ -148,7 +153,7 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
         yield [
             label.text,
             label.part,
-            f"{make_css_class(role, tint)}-name",
+            f"{make_css_class(role, colour_index)}-name",
             *visible_shifts,
             float(f"{label.clearance:.3g}"),
         ]

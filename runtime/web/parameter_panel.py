@@ -17,7 +17,7 @@ from gudgeon.language.quantities import parse_quantity
 from gudgeon.language.units import TIME, UNITS, make_dimension
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import find_contour_parameters
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.simulation.simulation import Simulation
 
 SECTIONS = {
@@ -59,7 +59,7 @@ def build_parameter_sections(simulation: Simulation, p: Array) -> list[dict[str,
         dict[str, list[dict[str, Any]]](),
     )
     contour_indices = find_contour_parameters(source)
-    for k, parameter in ((k, parameter) for k, parameter in enumerate(source.slots) if k not in contour_indices):
+    for k, parameter in ((k, parameter) for k, parameter in enumerate(source.parameters) if k not in contour_indices):
         section, _, name = parameter.address.partition(".")
         entry: dict[str, Any] = {"k": k, "name": name or section}
         if not parameter.words:
@@ -88,7 +88,7 @@ def _sort_by_owner(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
 def list_units(source: KernelSource) -> dict[str, dict[str, float]]:
     """Return the units that may be typed after a number, by SI unit: {name: value in SI}."""
     dimensions = {"s": TIME} | {
-        parameter.unit: make_dimension(*parameter.dimension) for parameter in source.slots if not parameter.words
+        parameter.unit: make_dimension(*parameter.dimension) for parameter in source.parameters if not parameter.words
     }
     return {
         si: {
@@ -110,7 +110,7 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, curre
     def is_value_invalid(new_value: float) -> bool:
         """Return whether a value of the parameter violates a condition."""
         try:
-            prepare_values(compiled, {parameter.address: new_value})
+            compute_parameter_values(compiled, {parameter.address: new_value})
         except GudgeonError:
             return True
         return False
@@ -142,7 +142,7 @@ class _Units:
         except (GudgeonError, OSError):  # the file does not exist any more
             document = {}
         self.written, unit_counts = dict[str, tuple[str, float]](), dict[str, Counter[tuple[str, float]]]()
-        for parameter in simulation.source.slots:
+        for parameter in simulation.source.parameters:
             if (unit := _read_unit(document, parameter)) is not None:
                 self.written[parameter.address] = unit
                 unit_counts.setdefault(parameter.unit, Counter())[unit] += 1
@@ -197,7 +197,7 @@ def _compute_slider_range(
     Positive parameters (bounded below, small lengths, SIGNED_SECTIONS): 0 to four times the value, lengths to twice.
     Angles: ±π about the value. Zeros: a range by unit. Other lengths: 0 to twice the value. Others: ± twice the value.
     """
-    value = float(p[[other_slot.address for other_slot in source.slots].index(parameter.address)])
+    value = float(p[[other_slot.address for other_slot in source.parameters].index(parameter.address)])
     own_conditions = [
         condition
         for condition in source.conditions

@@ -29,39 +29,43 @@ DARK_TINTS = ("#1d3a4d", "#4a3510", "#153f32", "#45263a", "#4d2a14", "#234152", 
 
 
 def build_style_sheet(shape_styles: Iterable[tuple[str, int]], name_styles: Iterable[tuple[str, int]]) -> str:
-    """Return the CSS of a page: page.css, then rules for shapes and names by role and tint, light and dark.
+    """Return the CSS of a page: page.css, then rules for shapes and names by role and colour index, light and dark.
 
-    `shape_styles` and `name_styles` are pairs (role, tint). Classes are those of `make_css_class`, for names with the
-    suffix "-name".
+    `shape_styles` and `name_styles` are pairs (role, colour index). Classes are those of `make_css_class`, for names
+    with the suffix "-name".
     """
     light_rules, dark_rules = list[str](), list[str]()
-    for role, tint in shape_styles:
-        selector = f".{make_css_class(role, tint)}"
+    for role, colour_index in shape_styles:
+        selector = f".{make_css_class(role, colour_index)}"
         role_style = ROLES[role]
         dashes = f"stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)};" if role_style.dashes else ""
-        light_edge, light_face = (_format_light_colour(name, tint) for name in (role_style.edge, role_style.face))
-        dark_edge, dark_face = (_format_dark_colour(name, tint) for name in (role_style.edge, role_style.face))
+        light_edge, light_face = (
+            _format_light_colour(name, colour_index) for name in (role_style.edge, role_style.face)
+        )
+        dark_edge, dark_face = (_format_dark_colour(name, colour_index) for name in (role_style.edge, role_style.face))
         light_rules.append(
             f"{selector}{{stroke:{light_edge};fill:{light_face};"
             f"stroke-width:{role_style.width * PIXELS_PER_INCH / 72.0:.2f};{dashes}}}"
         )
         dark_rules.append(f"{selector}{{stroke:{dark_edge};fill:{dark_face}}}")
-    for role, tint in name_styles:
-        selector = f".{make_css_class(role, tint)}-name"
+    for role, colour_index in name_styles:
+        selector = f".{make_css_class(role, colour_index)}-name"
         colour_name, weight = NAMES[role]
         slant = "font-style:italic;" if role == "joint" else ""
-        light_rules.append(f"{selector}{{fill:{_format_light_colour(colour_name, tint)};font-weight:{weight};{slant}}}")
-        dark_rules.append(f"{selector}{{fill:{_format_dark_colour(colour_name, tint)}}}")
+        light_rules.append(
+            f"{selector}{{fill:{_format_light_colour(colour_name, colour_index)};font-weight:{weight};{slant}}}"
+        )
+        dark_rules.append(f"{selector}{{fill:{_format_dark_colour(colour_name, colour_index)}}}")
     dark_text = "\n".join(dark_rules)
     light_text = f"{_read_style_sheet()}\n{chr(10).join(light_rules)}"
     return f"{light_text}\n@media screen and (prefers-color-scheme: dark) {{\n{dark_text}\n}}\n"
 
 
-def make_css_class(role: str, tint: int) -> str:
-    """Return the CSS class of a role, such as "d-pin"; roles with the colours of a body include the tint."""
+def make_css_class(role: str, colour_index: int) -> str:
+    """Return the CSS class of a role, such as "d-pin"; roles with the colours of a body include the colour index."""
     class_name = role.replace(" ", "-")
     has_body_colour = role in ROLES and {"tint", "edge"} & {ROLES[role].edge, ROLES[role].face}
-    return f"d-{class_name}-{tint % len(TINTS)}" if has_body_colour or (role == "body") else f"d-{class_name}"
+    return f"d-{class_name}-{colour_index % len(TINTS)}" if has_body_colour or (role == "body") else f"d-{class_name}"
 
 
 @cache
@@ -72,13 +76,13 @@ def _read_style_sheet() -> str:
     return compress_style_sheet(Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
 
 
-def _format_light_colour(colour_name: str, tint: int) -> str:
+def _format_light_colour(colour_name: str, colour_index: int) -> str:
     """Return the CSS colour of a role's colour on a light background."""
-    colour = resolve_colour(colour_name, tint)
+    colour = resolve_colour(colour_name, colour_index)
     return FRAME.get(colour, colour)
 
 
-def _format_dark_colour(colour_name: str, tint: int) -> str:
+def _format_dark_colour(colour_name: str, colour_index: int) -> str:
     """Return the CSS colour of a role's colour on a dark background."""
-    colour = resolve_colour(colour_name, tint)
+    colour = resolve_colour(colour_name, colour_index)
     return DARK_TINTS[TINTS.index(colour)] if colour_name == "tint" else FRAME.get(colour) or DARK.get(colour, colour)

@@ -10,7 +10,7 @@ import pytest
 from gudgeon.assembly import linkage, start
 from gudgeon.assembly.start import search_start
 from gudgeon.errors import AssemblyError, SingularError
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from tests.scenes import loader
 
 CART = """
@@ -49,7 +49,7 @@ def test_a_start_far_away_assembles(written: float, x: float, ask: str, hangs: b
     text, given = CART.format(x=written, bob=BOB * hangs, pin=PIN * hangs, ask=ask), {"x": x}
     simulation, near = loader(tmp_path)(text), 1e-7 if "guess" in ask else 1e-14  # a guess is no more than one
     for scene in (simulation, simulation.full):
-        compiled, p = scene.compiled, prepare_values(scene.compiled, given)[0]
+        compiled, p = scene.compiled, compute_parameter_values(scene.compiled, given)[0]
         assert compiled.close_linkage(0.0, p, linkage.compute_mechanism_size(compiled, p)) is not None
         found, sought = start.assemble_start(compiled, p), search_start(compiled, p)
         assert found.q[0] == pytest.approx(x, rel=near)
@@ -92,6 +92,6 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     heavier = r"rod \(1e\+100 .* and crank"
     with pytest.raises(AssemblyError, match=rf"the inertias of {heavier}.*have too large a ratio"):
         heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e100})
-    p = prepare_values(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
+    p = compute_parameter_values(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
     with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* too large a ratio"):
         heavy.compiled.check_pivot(1, 0.0, p=p)

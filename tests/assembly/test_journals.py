@@ -17,7 +17,7 @@ from gudgeon.assembly.journals import check_journal_positions
 from gudgeon.assembly.start import search_start
 from gudgeon.cli import app
 from gudgeon.errors import AssemblyError, UnknownNameError
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.simulation.simulation import Simulation
 
 C, R, M = 3e-4, 1e-2, 0.1
@@ -128,7 +128,7 @@ def relative(q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
 
 def test_a_linkage_closes_around_its_journals(scenes: Scenes) -> None:
     """Both as the file says, the crank as its motor, the piston on its line; the search in Python agrees with C."""
-    p = prepare_values(scenes.driven.compiled, {"start.play.B.e.y": "-0.03 mm"})[0]
+    p = compute_parameter_values(scenes.driven.compiled, {"start.play.B.e.y": "-0.03 mm"})[0]
     start = scenes.driven.start({"start.play.B.e.y": "-0.03 mm"})
     expected = ([2e-5, 4e-5], [3e-3, 0.0], [0.0, -3e-5], [0.0, -2e-3])
     for got, each in zip(relative(start.q, start.v), expected, strict=True):
@@ -253,7 +253,9 @@ def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scene
     batch = scenes.free.simulate_many(columns, 1e-4)
     assert {failure.run: str(failure.error) for failure in batch.failures} == dict(enumerate(texts))
     nearly = numbers([most * (1.0 - 1e-7), 0.0], [0.0, 0.0])
-    check_journal_positions(scenes.free.compiled, prepare_values(scenes.free.compiled, nearly)[0])  # so deep may it lie
+    check_journal_positions(
+        scenes.free.compiled, compute_parameter_values(scenes.free.compiled, nearly)[0]
+    )  # so deep may it lie
     assert "a length of 2.6 mm: expected 1.3 mm at most" in texts[0] and "without a unit" not in texts[0]
     length, limit = re.findall(r"a length of (\S+) mm: expected (\S+) mm at most", texts[1])[0]
     assert float(length) > float(limit) == pytest.approx(1.3)

@@ -11,7 +11,7 @@ import gudgeon
 from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.assembly.start import search_start
 from gudgeon.errors import AssemblyError
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from tests.scenes import Load, loader
 from tests.slow import slow_but, slow_rows_but
 
@@ -204,7 +204,7 @@ start: {set: {crank.theta: 40 deg}}
 def test_a_double_root_at_the_guess_is_closed_in_c(length: float) -> None:
     """bob.x = length and |bob| = length have the double root bob.y = 0, where both equations depend on each other."""
     simulation = gudgeon.load("pendulum")
-    compiled, p = simulation.compiled, prepare_values(simulation.compiled, {"length": length})[0]
+    compiled, p = simulation.compiled, compute_parameter_values(simulation.compiled, {"length": length})[0]
     closed = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
     assert closed is not None
     sought = search_start(compiled, p)

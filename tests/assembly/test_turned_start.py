@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly.closure import AssemblyProblem
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from tests.programs import needs_compiler
 from tests.scenes import Load, loader
 
@@ -66,5 +66,5 @@ def test_a_closed_guess_is_the_start_to_the_bit(load: Load, linkage: str) -> Non
     guess = dict(zip(("ax", "ay", "phi", "bx", "by", "psi"), q.tolist(), strict=False))
     numbers = {**place, "psi": -0.9, **guess}
     assert scene.start(numbers).q.tobytes() == q.tobytes()
-    problem = AssemblyProblem(scene.compiled, prepare_values(scene.compiled, numbers)[0], 0.0)
+    problem = AssemblyProblem(scene.compiled, compute_parameter_values(scene.compiled, numbers)[0], 0.0)
     assert problem.find_nearest_configuration()[0].tobytes() == q.tobytes()

@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from gudgeon.assembly.branches import find_assemblies  # noqa: E402
-from gudgeon.assembly.mobility import compute_free_motions, find_mobility  # noqa: E402
+from gudgeon.assembly.mobility import compute_admissible_velocities, find_mobility  # noqa: E402
 from gudgeon.drawing.configuration import Configuration  # noqa: E402
 from gudgeon.drawing.failures import draw_free_motions, draw_gaps  # noqa: E402
 from gudgeon.drawing.labels import NameLabels  # noqa: E402
@@ -171,7 +171,7 @@ start: {guess: {coupler.theta: 20 deg, stray.x: 80 mm, block.x: 70 mm}}
 def test_what_may_move_is_told_by_arrows_along_it() -> None:
     found = drawn(LOOSE)
     linkage, configuration = found.linkage, found.configuration
-    motions = compute_free_motions(linkage, linkage.p, configuration.q)
+    motions = compute_admissible_velocities(linkage, linkage.p, configuration.q)
     mobility = find_mobility(linkage, linkage.p, configuration.q)
     assert motions.shape[1] == mobility.freedoms == 5 and mobility.unconnected_bodies == ("stray",)
     assert np.abs(linkage.closed_phi_q(0.0, configuration.q, linkage.p) @ motions).max() < 1e-12

@@ -73,8 +73,8 @@ def _made(
 ) -> Subject:
     model, library = _derived(data, name, scene, options)
     source, values = library.source, dict(pairs)
-    given, mask = np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool)
-    for k, slot in enumerate(source.slots):
+    given, mask = np.zeros(len(source.parameters)), np.zeros(len(source.parameters), dtype=bool)
+    for k, slot in enumerate(source.parameters):
         if slot.address in values:
             given[k], mask[k] = values[slot.address], True
     return Subject(model, library, library.prepare(given, mask), ComplexStep(model, values))

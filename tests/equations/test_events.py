@@ -137,7 +137,7 @@ def test_both_formulations_agree(tmp_path: Path) -> None:
     """At random places of the tree, corners in the same order."""
     source = generate_kernel_source(file(), "slider.yaml", "dry")
     driver = IN_TREE[: IN_TREE.index("        (void)dynamics")] + BOTH + "    return 0;\n}\n"
-    states = np.random.default_rng(5).uniform(-1.0, 1.0, (20, 1 + 2 * len(source.tree)))
+    states = np.random.default_rng(5).uniform(-1.0, 1.0, (20, 1 + 2 * len(source.tree_coordinates)))
     states[:, 0] += 1.5  # t
     found = values(source, driver, states, tmp_path).reshape(20, 3, 2)
     np.testing.assert_allclose(found[..., 1], found[..., 0], rtol=1e-12, atol=1e-13)

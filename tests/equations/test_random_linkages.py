@@ -150,7 +150,7 @@ def check_energy(case: Case, library: CompiledModel) -> None:
 def test_random_linkage(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     case = random_mechanism(seed)
     library = compiled(case, monkeypatch)
-    slots = len(library.source.slots)
+    slots = len(library.source.parameters)
     p = library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool))
     check_dynamics(case, library, p, 0.0, case.q, case.v)
     for other in range(2):

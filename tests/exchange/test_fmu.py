@@ -117,7 +117,7 @@ def test_it_is_valid_and_moves_as_the_native_run(
     from fmpy.validation import validate_fmu
 
     simulation = scene(name, which)
-    numbers = {k: v for k, v in numbers.items() if k in simulation.source.slot_index}
+    numbers = {k: v for k, v in numbers.items() if k in simulation.source.parameter_indices}
     fmu = written(simulation, tmp_path)
     assert validate_fmu(fmu) == []
     names = [one for one, *_ in iterate_outputs(simulation.source)]

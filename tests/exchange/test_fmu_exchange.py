@@ -237,7 +237,7 @@ def test_an_event_located_at_zero_itself_counts(tmp_path: Path) -> None:
     simulation = scene("nine_bar_press", "dry")
     fmu, c = (
         written(simulation, tmp_path),
-        simulation.source.slots[simulation.source.slot_index["parameters.c"]].default,
+        simulation.source.parameters[simulation.source.parameter_indices["parameters.c"]].default,
     )
     with contact(simulation, tmp_path) as (joint, k, _, ways):
         _, (t_on, x_on, _), within, (t_off, x_off, _) = ways

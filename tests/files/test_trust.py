@@ -138,11 +138,11 @@ def test_a_group_of_the_user_alone_may_write_above(tmp_path: Path, monkeypatch: 
     """As with a umask of 002, where each user has a group; not the cache folder itself, as ssh has it."""
     (tmp_path / "home" / "cache").mkdir(parents=True, mode=0o700)
     (tmp_path / "home").chmod(0o775)
-    monkeypatch.setattr(trust, "_is_own_group", lambda group: True)
+    monkeypatch.setattr(trust, "_is_private_group", lambda group: True)
     check_trusted_path(tmp_path / "home" / "cache")
     with pytest.raises(UntrustedPathError):
         check_trusted_path(tmp_path / "home")
-    monkeypatch.setattr(trust, "_is_own_group", lambda group: False)
+    monkeypatch.setattr(trust, "_is_private_group", lambda group: False)
     with pytest.raises(UntrustedPathError, match="the group"):
         check_trusted_path(tmp_path / "home" / "cache")
 

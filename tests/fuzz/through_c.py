@@ -135,7 +135,7 @@ def write(source: KernelSource, folder: Path) -> None:
 def check_syntax(source: KernelSource, folder: Path) -> None:
     """No error, no warning."""
     write(source, folder)
-    files = [source.main, str(UNIT), *([source.lanes] if source.lanes else [])]
+    files = [source.main, str(UNIT), *([source.lane_file] if source.lane_file else [])]
     _compile([*WARNINGS, "-fsyntax-only", *build_include_flags(), *files], folder)
 
 
@@ -144,7 +144,7 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     write(source, folder)
     text, message = f'#include "{source.main}"\n#include "engine/engine.c"\n', select_declarations(source)
     if source.formulation == "reduced":
-        chained = bool(source.chain)
+        chained = bool(source.driven_loop_coordinates)
         state = "at.q, at.v" if chained else "s, rate"
         seat = (
             "TreeState at;\n    if (solve_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
@@ -171,7 +171,7 @@ def _compile(flags: list[str], folder: Path) -> None:
 def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
     """Tree and absolute equations at states near a start, the events against their text; False: nothing starts."""
     rng, t = np.random.default_rng(seed), 0.37
-    slots = len(compiled.source.slots)
+    slots = len(compiled.source.parameters)
     reduced = Reduced(compiled, compiled.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
     try:
         start = assemble_start(compiled, reduced.p, t)
@@ -185,7 +185,7 @@ def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
         if compiled.source.closures:
             with np.errstate(all="ignore"):
                 here = _closed(reduced, t, *here)
-        memory = np.where(rng.random(compiled.n_memory) < 0.5, 0.1, np.nan)
+        memory = np.where(rng.random(compiled.n_discrete_states) < 0.5, 0.1, np.nan)
         memory[len(compiled.source.clearances) :] = 1.0
         found = _both(reduced, t, *here, memory)
         moved = [_both(reduced, t + e, here[0] * (1 + e) + e, here[1] * (1 + e) + e, memory) for e in (1e-10, -1e-10)]
@@ -237,7 +237,9 @@ def _check(
         _agree("accelerations", tree[:-1] / size, rescued[:-1] / size, np.full(1, np.max(slack[0]) / size + 1e-7))
     else:
         place = {name: k for k, name in enumerate(source.coordinates)}
-        angles = [(k, place[f"{name}.theta"]) for k, name in enumerate(source.tree) if f"{name}.theta" in place]
+        angles = [
+            (k, place[f"{name}.theta"]) for k, name in enumerate(source.tree_coordinates) if f"{name}.theta" in place
+        ]
         mine, theirs = [k for k, _ in angles], [k for _, k in angles]
         _agree("accelerations", tree[mine], everything[theirs], slack[0][mine] + 1e-9 * np.max(abs(everything)))
     _agree("events and their text", of_all, _as_written(compiled, file, reduced, t, q, v), slack[5])
@@ -255,7 +257,7 @@ def _as_written(compiled: CompiledModel, file: RandomFile, reduced: Reduced, t: 
     """Values of the events by NumPy from the file's text, at absolute coordinates."""
     mechanism = read_mechanism(file.text.encode(), "f")
     source, p = compiled.source, reduced.p
-    slots = {slot.address: p[k] for k, slot in enumerate(source.slots)}
+    slots = {slot.address: p[k] for k, slot in enumerate(source.parameters)}
     known: dict[str, float] = {}
     for k, body in enumerate(mechanism.bodies):
         values = (*q[3 * k : 3 * k + 3], *v[3 * k : 3 * k + 3])

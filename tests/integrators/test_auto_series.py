@@ -74,9 +74,13 @@ def test_the_method_follows_from_scene_and_tolerance() -> None:
     assert [select_first_method(double.source, rtol) for rtol in (1e-3, 1e-8)] == [EXPLICIT, TAYLOR]
     for name, scene in [("slider_crank", "dry"), ("belt_block", "ideal"), ("shaker", "ideal")]:
         source = scene_of(name, scene).source
-        assert not source.taylor and source.taylor_below == 0.0 and select_first_method(source, 1e-12) == EXPLICIT
+        assert (
+            not source.taylor_file
+            and source.max_taylor_tolerance == 0.0
+            and select_first_method(source, 1e-12) == EXPLICIT
+        )
     squeezer = scene_of("andrews_squeezer", "ideal").source
-    assert not squeezer.taylor and 1e-12 < squeezer.taylor_below < RTOL
+    assert not squeezer.taylor_file and 1e-12 < squeezer.max_taylor_tolerance < RTOL
     assert [find_required_variant(squeezer, "auto", rtol, False) for rtol in (None, "1e-8", 1e-12)] == ["", "", TAYLOR]
     assert find_required_variant(squeezer, "auto", 1e-12, True) == ""
     assert select_first_method(double.full.source, 1e-12) == EXPLICIT
@@ -101,8 +105,8 @@ def test_tight_tolerances_load_the_series_on_request(tmp_path: Path, at_once: Se
     spring, rtol = gudgeon.load(file), 1e-11
     file.unlink()
     assert spring.simulate(0.1, output=1).diagnostics.method == EXPLICIT
-    name = next(name for name in spring.source.slot_index if name.endswith(".mass"))
-    mass = spring.source.slots[spring.source.slot_index[name]].default
+    name = next(name for name in spring.source.parameter_indices if name.endswith(".mass"))
+    mass = spring.source.parameters[spring.source.parameter_indices[name]].default
     batch, singly = both(spring, {name: np.linspace(mass, 1.2 * mass, COUNT)}, 0.2, rtol=rtol)
     assert_same_batches(batch, singly)
     assert len(at_once.used) >= COUNT

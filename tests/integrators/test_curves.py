@@ -247,7 +247,7 @@ def test_c_has_no_warnings(text: str, tmp_path: Path) -> None:
     for file, content in source.files.items():
         (tmp_path / file).write_text(content, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *build_include_flags()]
-    for main in filter(None, (source.main, source.lanes)):
+    for main in filter(None, (source.main, source.lane_file)):
         line = [*find_compiler(), *flags, main]
         done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr[:2000]

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 import gudgeon
 from gudgeon.generator.kinds.laws.law import find_laws_of_role
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.reynolds import Bearing
 from gudgeon.reynolds.deviations import make_law_force
 from gudgeon.simulation.simulation import Simulation
@@ -134,7 +134,7 @@ def test_the_linearized_rotor_is_the_textbooks(rotor: Rotor, load: float) -> Non
     eps, place = equilibrium(short_film, load)
     mass, (stiffness, damping) = limit(load)[0], textbook(eps, load)
     full, y = rotor("ocvirk").full, np.array([*place, 0.0, 0.0, 0.0, OMEGA])
-    J = full.compiled.jacobian(0.0, y, prepare_values(full.compiled, {"load": load, "mass": mass})[0])[0]
+    J = full.compiled.jacobian(0.0, y, compute_parameter_values(full.compiled, {"load": load, "mass": mass})[0])[0]
     for columns, want in ((slice(0, 2), stiffness), (slice(3, 5), damping)):
         np.testing.assert_allclose(-mass * J[3:5, columns], want, rtol=0, atol=1e-9 * abs(want).max())
 

@@ -144,7 +144,7 @@ def test_momentum_of_free_pairs(touching: Sequence[str], tmp_path: Path) -> None
     q, v = (np.tile(one, n) for one in states(start.q[:6], 60))
     touched = np.zeros(n, int)
     for stored in (NAN, 0.03):
-        bent = np.full((60, len(scene.source.states)), 7e-6)  # internal states of the laws
+        bent = np.full((60, len(scene.source.internal_states)), 7e-6)  # internal states of the laws
         got = scene.compiled.evaluate(np.zeros(60), q, v, np.c_[np.full((60, n), stored), bent], scene.p)
         for k, contact in enumerate(touching):
             at, a = q[:, 6 * k : 6 * k + 6], got.a[:, 6 * k : 6 * k + 6]

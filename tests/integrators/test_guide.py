@@ -313,7 +313,7 @@ def test_equations_in_numpy_are_those_in_c(folder: Path) -> None:
     simulation = made(folder, ARM, "elastic")
     run = simulation.simulate(2e-3, output=40)
     numpy_model, compiled = simulation.model.numpy(), simulation.compiled
-    p, parameters = numpy_model.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.slots))))
+    p, parameters = numpy_model.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.parameters))))
     assert (run.state > 0).any()
     for t, q, v, contact_state in zip(run.t, run.q, run.v, run.memory, strict=True):
         actual = numpy_model.dynamics(t, q, v, p, contact_state)
@@ -330,7 +330,7 @@ def test_many_runs_are_the_single_ones(folder: Path) -> None:
             run = simulation.simulate(0.01, output=10, method=method, rtol=1e-10, parameters=one)
             np.testing.assert_allclose(batch["block.theta"][k], run["block.theta"], atol=1e-7)
             np.testing.assert_allclose(batch["way.rear_lower.Fn"][k], run["way.rear_lower.Fn"], atol=1e-2)
-    assert simulation.source.lanes
+    assert simulation.source.lane_file
 
 
 def test_a_run_goes_on_in_contact(folder: Path) -> None:

@@ -120,7 +120,7 @@ def test_runs_side_by_side(
         scene = gudgeon.load(tmp_path / "press.yaml", "dry")
     c = np.linspace(2.5e-4, 5e-4, 8)
     batch = scene.simulate_many({"c": c}, t_end=0.01, output=50, method="rk4", step=1e-6)
-    assert scene.source.lanes
+    assert scene.source.lane_file
     for k, value in enumerate(c):
         run = scene.simulate(0.01, output=50, method="rk4", step=1e-6, parameters={"c": value})
         for name in ("A.z", "B.z", place, "A.Ft"):

@@ -274,7 +274,7 @@ def test_lanes_give_the_bits_of_single_runs(drive: str, tmp_path: Path, monkeypa
     """Few samples halve steps; some runs fail at their start or on the way, and their lanes take other runs."""
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
     linkage = loader(tmp_path)(LINKAGE.replace("20 deg + w*t", drive))
-    assert linkage.source.lanes
+    assert linkage.source.lane_file
     parameters = draw_lengths(45, 0.4)
     for samples in (3, 50):
         alone = linkage.simulate_many(parameters, 1.0, output=samples, side_by_side=False)

@@ -35,7 +35,7 @@ def test_every_number_that_a_start_hangs_on_is_heeded(
     simulation = gudgeon.load(without_chain(tmp_path) if mechanism == EVERY_KIND else mechanism, scene)
     source = simulation.source
     numbers: list[dict[str, float]] = []
-    for slot in source.slots:
+    for slot in source.parameters:
         value = 1.001 * slot.default if slot.default else 1e-3
         if not slot.words and alone(simulation, {slot.address: value}):
             numbers += [{slot.address: value}, {}]

@@ -126,7 +126,7 @@ def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest
         mechanism = without_chain(tmp_path)
     simulation, values = gudgeon.load(mechanism, scene=scene), np.linspace(low, high, COUNT)
     requested: list[dict[str, Any]] = [{"method": "rk4", "step": step}]
-    selected = (*CHOSEN, *(STAGED if simulation.source.stages else ()))
+    selected = (*CHOSEN, *(STAGED if simulation.source.has_stage_matrices else ()))
     requested += [{"method": method, "rtol": rtol} for method, rtol in selected]
     for options in requested:
         seen = Seen(monkeypatch)
@@ -360,9 +360,9 @@ def test_nobody_else_pays(monkeypatch: pytest.MonkeyPatch) -> None:
     press, belt = gudgeon.load("nine_bar_press", scene="dry"), gudgeon.load("belt_block")
     press.simulate(1e-3, method="rk4", step=1e-5, output=2)
     press.simulate_many({"c": [3e-4]}, 1e-3, method="rk4", step=1e-5, output=2)
-    address = belt.source.slots[0].address
-    belt.simulate_many({address: [belt.source.slots[0].default] * 3}, 0.01, method="rk4", step=1e-3, output=2)
+    address = belt.source.parameters[0].address
+    belt.simulate_many({address: [belt.source.parameters[0].default] * 3}, 0.01, method="rk4", step=1e-3, output=2)
     full = gudgeon.load("pendulum", formulation="full")
-    slot = full.source.slots[0]
+    slot = full.source.parameters[0]
     full.simulate_many({slot.address: [slot.default] * 2}, 1e-4, method="rk4", step=1e-5, output=2)
-    assert not belt.source.lanes and not full.source.lanes
+    assert not belt.source.lane_file and not full.source.lane_file

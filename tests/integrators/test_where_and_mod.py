@@ -246,7 +246,7 @@ joints: {rail: {translational: [ground.O, cart.com], axis: [1, 0]}, pin: {revolu
 drives: {push: {coordinate: cart.x, value: "%s"}}
 """
     scene, rng = loader(tmp_path)(cart % value), np.random.default_rng(1)
-    period = [slot.address for slot in scene.source.slots].index("parameters.T")
+    period = [slot.address for slot in scene.source.parameters].index("parameters.T")
     known = [(0.12213540426256936, t_end) for t_end in (1.0, 2.0, 5.0, 10.0)] if "min" in value else []  # all, once
     for T, t_end in (*known, *rng.uniform((0.05, 2.0), (0.5, 5.0), (drawn, 2)).tolist()):
         p = scene.p.copy()

@@ -46,7 +46,7 @@ def test_rates_are_those_of_thirty_digits(driven: tuple[Simulation, list[str]], 
     full, names = driven[0].full, driven[1]
     compiled, p = full.compiled, full.p
     t, none = 5.0 + WIDTH * u, np.zeros(compiled.n)
-    rows = [row.name for row in compiled.source.start_rows]
+    rows = [row.name for row in compiled.source.start_equations]
     nu, gamma = compiled.closed_nu(t, none, p), compiled.closed_gamma(t, none, none, p)
     for name in names:
         form = FORMS[name][1]

@@ -11,7 +11,7 @@ import gudgeon
 from gudgeon.assembly.start import Start
 from gudgeon.errors import SingularError
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.shipped import GENERATED, find_shipped_file, list_generated
+from gudgeon.loading.shipped import GENERATED, find_shipped_file, list_generated_scenes
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
@@ -51,7 +51,7 @@ start: {guess: {a.theta: 0.4 rad, c.x: 0.8 m}}
 
 INTEGRATED = [  # read, not loaded: a file that is collected compiles nothing
     (name, source.scene)
-    for name in list_generated()
+    for name in list_generated_scenes()
     for source in read_scenes(GENERATED / name)
     if "rk4" in source.methods
 ]
@@ -80,7 +80,7 @@ def test_every_shipped_scene(of: tuple[str, str], gains: float) -> None:
     subject = shipped_subject(name, scene, gains)
     for seed in range(5):
         y, memory = near_start(name, scene, subject, seed)
-        subject.compare(0.1 + seed, y, memory[: max(subject.library.n_memory, 1)])
+        subject.compare(0.1 + seed, y, memory[: max(subject.library.n_discrete_states, 1)])
 
 
 @pytest.mark.parametrize("seed", slow_but([3, 4, 5], range(12)))  # every kind of joint, drive and element
@@ -119,7 +119,7 @@ def test_the_solve_against_a_dense_one(of: tuple[str, str]) -> None:
     subject = shipped_subject(name, scene)
     rng = np.random.default_rng(7)
     y, memory = near_start(name, scene, subject, 3)
-    check_solve(subject, 0.2, y, memory[: max(subject.library.n_memory, 1)], rng)
+    check_solve(subject, 0.2, y, memory[: max(subject.library.n_discrete_states, 1)], rng)
 
 
 def test_the_solve_where_friction_sticks_and_slips() -> None:

@@ -73,8 +73,8 @@ def test_no_text_depends_on_what_was_printed_before(of: tuple[str, str]) -> None
     for what in (*targets, *reversed(targets)):
         assert printed(model, what) == alone[what], what
     assert tables(model) == before
-    assert [slot.address for slot in alone["full"].slots] == [slot.address for slot in alone["reduced"].slots]
-    assert [*model.parameter_table.entries] == [slot.address for slot in alone["reduced"].slots]
+    assert [slot.address for slot in alone["full"].parameters] == [slot.address for slot in alone["reduced"].parameters]
+    assert [*model.parameter_table.entries] == [slot.address for slot in alone["reduced"].parameters]
 
 
 def test_a_model_is_read_only() -> None:

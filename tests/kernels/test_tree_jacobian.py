@@ -10,7 +10,7 @@ import pytest
 import gudgeon
 from gudgeon.integrators.single_run import integrate_problem
 from gudgeon.integrators.trajectory import Problem
-from gudgeon.model.parameters import prepare_without_baumgarte
+from gudgeon.model.parameters import compute_values_without_baumgarte
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -36,11 +36,11 @@ class Tree:
         self.simulation, self.compiled, self.t = simulation, simulation.compiled, t
         self.lib, self.pointer = self.compiled.lib, self.compiled.pointer
         run = simulation.simulate(t, output=1, rtol=1e-9)
-        zeros = np.zeros(len(simulation.source.slots))
-        self.p = prepare_without_baumgarte(self.compiled, zeros, zeros.astype(bool))
-        self.memory = self.compiled.as_discrete_states(run.memory[-1] if self.compiled.n_memory else None)
-        self.n = len(simulation.source.tree)
-        chained = len(simulation.source.chain)
+        zeros = np.zeros(len(simulation.source.parameters))
+        self.p = compute_values_without_baumgarte(self.compiled, zeros, zeros.astype(bool))
+        self.memory = self.compiled.as_discrete_states(run.memory[-1] if self.compiled.n_discrete_states else None)
+        self.n = len(simulation.source.tree_coordinates)
+        chained = len(simulation.source.driven_loop_coordinates)
         q, v = np.zeros(self.n + chained), np.zeros(self.n + chained)
         final = [np.ascontiguousarray(x) for x in (run.q[-1], run.v[-1])]
         self.lib.gudgeon_reduce(t, *map(self.pointer, (*final, self.p, q, v)))

@@ -110,8 +110,11 @@ def test_everything_follows_from_it(disc: Path) -> None:
     source = generate_kernel_source(disc.read_bytes(), str(disc), "wall")
     text = "".join(source.files.values())
     assert "static inline void own_dashpot__(double delta, double ratio, double deltadot, double stiffness__" in text
-    assert {slot.address for slot in source.slots} >= {"contacts.wall.normal.stiffness", "contacts.wall.normal.damping"}
-    assert next(s for s in source.slots if s.address.endswith("damping")).unit == "kg/s"
+    assert {slot.address for slot in source.parameters} >= {
+        "contacts.wall.normal.stiffness",
+        "contacts.wall.normal.damping",
+    }
+    assert next(s for s in source.parameters if s.address.endswith("damping")).unit == "kg/s"
     shown = render_equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
     assert "any book on vibrations" in shown and "F_n = δ·K + δ̇·D" in shown
     assert "dashpot" in json.dumps(make_schema()) and list_typed_law_files() == [str(disc.parent / "dashpot.py")]

@@ -97,7 +97,7 @@ def test_compiled(texts: list[str], tmp_path: Path) -> None:
         for name, part in source.files.items():
             (folder / name).write_text(part)
         engine = ["engine/engine.c"] if number == 0 else []  # of which nothing is the file's but sizes
-        mains = [source.main, *engine, *([source.lanes] if source.lanes else [])]
+        mains = [source.main, *engine, *([source.lane_file] if source.lane_file else [])]
         units = [f"unit_{kind}.c" for kind in range(len(mains))]
         for unit, name in zip(units, mains, strict=True):
             (folder / unit).write_text(f'#include "{name}"\n')

@@ -89,7 +89,7 @@ def test_a_run_goes_on_with_the_optimized_library(cache: Cache, method: str, mon
     during = run(progress=progress)
     assert called[0] == 1 and called[-1] == 2
     assert same(before, during) and same(before, run())
-    first = simulation.source.slots[0]
+    first = simulation.source.parameters[0]
     batch = simulation.simulate_many({first.address: [first.default]}, 2.0, output=50, method=method, **step)  # type: ignore[arg-type]
     assert np.array_equal(batch.q[0], before.q)
 

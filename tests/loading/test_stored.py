@@ -36,9 +36,9 @@ def test_what_does_not_follow_stays() -> None:
     odd = replace(
         source,
         coordinates=source.coordinates[::-1],
-        rows=(replace(source.rows[0], unit="rad"), *source.rows[:0:-1]),
-        slots=(replace(source.slots[0], unit="furlong"), *source.slots[1:]),
-        motion_pivots=(),
+        equations=(replace(source.equations[0], unit="rad"), *source.equations[:0:-1]),
+        parameters=(replace(source.parameters[0], unit="furlong"), *source.parameters[1:]),
+        integrated_pivots=(),
         main="other.c",
         bodies=tuple(replace(body, index=body.index + 1) for body in source.bodies),
     )

@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.commands.assembly_report import assemble_scenes
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.loading.shipped import find_shipped_file, list_generated, list_shipped_mechanisms
+from gudgeon.loading.shipped import find_shipped_file, list_generated_scenes, list_shipped_mechanisms
 from gudgeon.results.results import Result
 from tests.mechanisms.circles import Array, Points, meet, point, smooth
 from tests.programs import needs_compiler
@@ -20,7 +20,7 @@ from tests.slow import slow_but
 
 pytestmark = needs_compiler
 ROOT = Path(__file__).resolve().parents[2]
-GALLERY = sorted(set(list_shipped_mechanisms()) - set(list_generated()))
+GALLERY = sorted(set(list_shipped_mechanisms()) - set(list_generated_scenes()))
 
 
 @cache

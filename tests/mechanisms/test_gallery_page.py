@@ -14,7 +14,7 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
-from gudgeon.loading.shipped import find_shipped_file, list_generated, list_shipped_mechanisms  # noqa: E402
+from gudgeon.loading.shipped import find_shipped_file, list_generated_scenes, list_shipped_mechanisms  # noqa: E402
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -27,7 +27,7 @@ PARTS = r'viewBox="[^"]*"|id="(?:body|joint|drive|inset|force)-[^"]*"'
 def test_all_of_the_gallery_is_there() -> None:
     names = [name for _, name, _ in DRAWN]
     assert len(names) == len(set(names)) == PAGE.count("\n## ") == PAGE.count("To learn: ") == 15
-    assert set(list_shipped_mechanisms()) - set(list_generated()) <= set(names)
+    assert set(list_shipped_mechanisms()) - set(list_generated_scenes()) <= set(names)
     assert sorted(path.name for path in (DOCS / "gallery").iterdir()) == sorted(f"{name}.svg" for name in names)
 
 

@@ -163,8 +163,8 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
     """Of CompiledModel, at a state y and another one of whole numbers."""
     model, n = simulation.compiled, simulation.compiled.n
     p, ones = simulation.p.astype(np.float32).astype(np.float64), np.ones(len(simulation.p))
-    nothing, one = np.full(model.n_memory, np.nan), np.ones(model.n_memory)
-    given, mask = p[: len(simulation.source.slots)], np.arange(len(simulation.source.slots)) % 2.0
+    nothing, one = np.full(model.n_discrete_states, np.nan), np.ones(model.n_discrete_states)
+    given, mask = p[: len(simulation.source.parameters)], np.arange(len(simulation.source.parameters)) % 2.0
 
     def argument(name: str, values: Numbers, others: Numbers, call: Callable[[Any], Any]) -> Argument:
         return Argument(f"compiled.{name}", values, others, lambda x: raw(call(x)))
@@ -187,14 +187,14 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
     yield argument("evaluate q", q.copy(), others[:, :n].copy(), lambda x: model.evaluate(t, x, v, memory, p))
     yield argument("evaluate v", v.copy(), others[:, n:].copy(), lambda x: model.evaluate(t, q, x, memory, p))
     yield argument("evaluate p", p, ones, lambda x: model.evaluate(t, q, v, memory, x))
-    if model.n_memory:
+    if model.n_discrete_states:
         yield argument("memory_array", one, one, model.as_discrete_states)
         yield argument("evaluate memory", memory + 0, memory + 1, lambda x: model.evaluate(t, q, v, x, p))
     if not hasattr(model.lib, "gudgeon_rhs"):
         return
     yield argument("rhs y", y, whole, lambda x: model.rhs(0.5, x, p))
     yield argument("rhs p", p, ones, lambda x: model.rhs(0.5, y, x))
-    if model.n_memory:
+    if model.n_discrete_states:
         yield argument("rhs memory", one / 2, one, lambda x: model.rhs(0.5, y, p, x))
     if hasattr(model.lib, "gudgeon_jacobian"):
         r = np.arange(2.0 * n + 3)
@@ -203,7 +203,7 @@ def compiled_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Number
         yield argument("newton y", y, whole, lambda x: model.solve_newton_system(0.5, x, p, 0.1, 1.0, r))
         yield argument("newton p", p, ones, lambda x: model.solve_newton_system(0.5, y, x, 0.1, 1.0, r))
         yield argument("newton r", r / 8, r, lambda x: model.solve_newton_system(0.5, y, p, 0.1, 1.0, x))
-        if model.n_memory:
+        if model.n_discrete_states:
             yield argument("jacobian memory", one / 2, one, lambda x: model.jacobian(0.5, y, p, x))
             yield argument(
                 "newton memory", one / 2, one, lambda x: model.solve_newton_system(0.5, y, p, 0.1, 1.0, r, x)
@@ -221,8 +221,8 @@ def simulation_arguments(simulation: gudgeon.Simulation, y: Numbers, whole: Numb
     if simulation.source.degrees_of_freedom:
         yield Argument("rhs y", y, whole, lambda x: raw(simulation.rhs(0.5, x)))
         yield Argument("jacobian y", y, whole, lambda x: raw(simulation.jacobian(0.5, x)))
-        if simulation.compiled.n_memory:
-            one = np.ones(simulation.compiled.n_memory)
+        if simulation.compiled.n_discrete_states:
+            one = np.ones(simulation.compiled.n_discrete_states)
             yield Argument("rhs memory", one / 2, one, lambda x: raw(simulation.rhs(0.5, y, x)))
             yield Argument("jacobian memory", one / 2, one, lambda x: raw(simulation.jacobian(0.5, y, x)))
 

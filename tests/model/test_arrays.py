@@ -117,17 +117,17 @@ def test_a_pointer_keeps_its_array_and_is_not_given_to_write_what_is_read_only(b
 def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any], Any]]]:
     """argument -> its length (last axis) and a call with it."""
     y, q, r = np.zeros(2 * model.n), np.zeros(model.n), np.zeros(2 * model.n + 3)
-    t, rows, latched = np.zeros(2), np.zeros((2, model.n)), np.full((2, model.n_memory), np.nan)
-    slots = len(model.source.slots)
+    t, rows, latched = np.zeros(2), np.zeros((2, model.n)), np.full((2, model.n_discrete_states), np.nan)
+    slots = len(model.source.parameters)
     return {
         "y": (2 * model.n, lambda x: model.rhs(0.0, x, p)),
         "p": (len(p), lambda x: model.rhs(0.0, y, x)),
-        "memory": (model.n_memory, lambda x: model.rhs(0.0, y, p, x)),
+        "memory": (model.n_discrete_states, lambda x: model.rhs(0.0, y, p, x)),
         "jacobian y": (2 * model.n, lambda x: model.jacobian(0.0, x, p)),
         "jacobian p": (len(p), lambda x: model.jacobian(0.0, y, x)),
-        "jacobian memory": (model.n_memory, lambda x: model.jacobian(0.0, y, p, x)),
+        "jacobian memory": (model.n_discrete_states, lambda x: model.jacobian(0.0, y, p, x)),
         "newton r": (len(r), lambda x: model.solve_newton_system(0.0, y, p, 0.1, 1.0, x)),
-        "newton memory": (model.n_memory, lambda x: model.solve_newton_system(0.0, y, p, 0.1, 1.0, r, x)),
+        "newton memory": (model.n_discrete_states, lambda x: model.solve_newton_system(0.0, y, p, 0.1, 1.0, r, x)),
         "given": (slots, lambda x: model.prepare(x, np.zeros(slots))),
         "is_given": (slots, lambda x: model.prepare(np.zeros(slots), x)),
         "mass": (len(p), model.mass),
@@ -146,8 +146,8 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
         "evaluate t": (2, lambda x: model.evaluate(x, rows, rows, latched, p)),
         "evaluate q": (model.n, lambda x: model.evaluate(t, np.tile(x, (2, 1)), rows, latched, p)),
         "evaluate v": (model.n, lambda x: model.evaluate(t, rows, np.tile(x, (2, 1)), latched, p)),
-        "evaluate memory": (model.n_memory, lambda x: model.evaluate(t, rows, rows, np.tile(x, (2, 1)), p)),
-        "memory_array": (model.n_memory, model.as_discrete_states),
+        "evaluate memory": (model.n_discrete_states, lambda x: model.evaluate(t, rows, rows, np.tile(x, (2, 1)), p)),
+        "memory_array": (model.n_discrete_states, model.as_discrete_states),
     }
 
 

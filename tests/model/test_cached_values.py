@@ -143,10 +143,10 @@ def test_a_cached_start_is_that_of_its_own_parameters(name: str) -> None:
     simulation = gudgeon.load(name)
     compiled, n_reused = simulation.compiled, 0
     first = assemble_file_start(compiled, simulation.p)
-    for k, slot in enumerate(compiled.source.slots):
+    for k, slot in enumerate(compiled.source.parameters):
         if slot.words:
             continue
-        given, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), bool)
+        given, is_given = np.zeros(len(compiled.source.parameters)), np.zeros(len(compiled.source.parameters), bool)
         given[k], is_given[k] = 1.001 * slot.default + 1e-4 * (slot.default == 0.0), True
         p = compiled.prepare(given, is_given)
         try:

@@ -16,10 +16,10 @@ from gudgeon.model.parameter_sets import (
     Columns,
     read_each_run,
     read_given_parameters_of_runs,
-    read_parameter_rows,
-    read_uniform_rows,
+    read_parameter_sets,
+    read_runs_with_equal_names,
 )
-from gudgeon.model.parameters import GAINS, prepare_without_baumgarte, read_given_parameters
+from gudgeon.model.parameters import GAINS, compute_values_without_baumgarte, read_given_parameters
 from tests.programs import needs_compiler
 from tests.scenes import loader
 
@@ -46,7 +46,7 @@ def test_plain_numbers_are_read_at_once() -> None:
 
 @pytest.mark.parametrize("name", ALONE)
 def test_others_are_read_one_by_one(name: str) -> None:
-    assert read_uniform_rows(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
+    assert read_runs_with_equal_names(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
 
 
 CLEARANCES = [3e-4, 4e-4, 5e-4]
@@ -83,7 +83,7 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
     source, (columns, at_once) = gudgeon.load("nine_bar_press", "dry").source, COLUMNS[name]
     whole = {key: one.tolist() if isinstance(one, np.ndarray) and one.ndim else one for key, one in columns.items()}
     every = [{key: one[i] if isinstance(one, list) else one for key, one in whole.items()} for i in range(3)]
-    (rows, bad), (plain, plain_bad) = read_parameter_rows(columns), read_parameter_rows(every)
+    (rows, bad), (plain, plain_bad) = read_parameter_sets(columns), read_parameter_sets(every)
     assert isinstance(rows, Columns) and isinstance(plain, list) and len(rows) == 3
     assert [*rows] == plain and rows[-1] == plain[2] and rows[1:] == plain[1:]
     assert [(i, str(error)) for i, error in bad.items()] == [(i, str(error)) for i, error in plain_bad.items()]
@@ -93,7 +93,7 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
         == one_by_one
         == message(lambda: read_given_parameters_of_runs(source, plain))
     )
-    assert (read_uniform_rows(source, rows) is not None) == at_once
+    assert (read_runs_with_equal_names(source, rows) is not None) == at_once
 
 
 def test_a_run_of_columns_that_there_is_not() -> None:
@@ -105,15 +105,15 @@ def test_a_run_of_columns_that_there_is_not() -> None:
 def test_runs_prepared_together_are_those_prepared_alone(scene: str) -> None:
     compiled = gudgeon.load("nine_bar_press", scene).compiled
     columns: dict[str, Any] = {"c": np.linspace(3e-4, 5e-4, RUNS_PER_CALL + 3), "omega": 3.0, GAINS[0]: "5 1/s"}
-    given, is_given = read_given_parameters_of_runs(compiled.source, read_parameter_rows(columns)[0])
+    given, is_given = read_given_parameters_of_runs(compiled.source, read_parameter_sets(columns)[0])
     before = given.tobytes(), is_given.tobytes()
     together, free = (
         compiled.prepare_parameters_of_runs(given, is_given),
-        prepare_without_baumgarte(compiled, given, is_given),
+        compute_values_without_baumgarte(compiled, given, is_given),
     )
     for i in (0, 1, RUNS_PER_CALL - 1, RUNS_PER_CALL, RUNS_PER_CALL + 2):
         assert together[i].tobytes() == compiled.prepare(given[i], is_given[i]).tobytes()
-        assert free[i].tobytes() == prepare_without_baumgarte(compiled, given[i], is_given[i]).tobytes()
+        assert free[i].tobytes() == compute_values_without_baumgarte(compiled, given[i], is_given[i]).tobytes()
     assert (given.tobytes(), is_given.tobytes()) == before and together.tobytes() != free.tobytes()
 
 

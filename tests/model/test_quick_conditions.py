@@ -24,8 +24,8 @@ def test_both_checks_accept_the_same_values(mechanism: str) -> None:
     """Each parameter is zero, negated, tiny, huge, not a number; derived values follow from it."""
     simulation = gudgeon.load(mechanism)
     source, compiled, accepted = simulation.source, simulation.compiled, set()
-    defaults = np.array([slot.default for slot in source.slots])
-    for k, slot in enumerate(source.slots):
+    defaults = np.array([slot.default for slot in source.parameters])
+    for k, slot in enumerate(source.parameters):
         if slot.words:
             continue
         for value in (0.0, -defaults[k], 1e-300, 1e300, np.nan, np.inf, 3.0 * defaults[k]):

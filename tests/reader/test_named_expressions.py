@@ -186,7 +186,7 @@ def test_nothing_in_a_line_of_its_own_is_told_in_that_line() -> None:
 def test_what_is_no_number_in_a_run_is_told_where_it_stands() -> None:
     bad = LED.replace("reach*sin(pace*t)", "sqrt(0.1 s - t)/sqrt(1 s)*reach*sin(pace*t)")
     source = generate_kernel_source(bad.encode(), "led.yaml", "ideal")
-    p, n = np.array([slot.default for slot in source.slots]), np.zeros(len(source.coordinates))
+    p, n = np.array([slot.default for slot in source.parameters]), np.zeros(len(source.coordinates))
     place = re.escape(f"(line {line_of(bad, 'target:')}, column 11)")
     message = f"forces.u.value .* is not finite at t = 0.2 s, nan: in expressions.target {place}, sqrt of -0.1$"
     assert re.match(message, explain_undefined_value_after(source, p, 0.2, n, n))

@@ -38,7 +38,7 @@ def test_emits_without_warnings(of: tuple[str, str], tmp_path: Path) -> None:
     for file, text in source.files.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *build_include_flags()]
-    lanes = [source.lanes] if source.lanes else []
+    lanes = [source.lane_file] if source.lane_file else []
     done = subprocess.run(
         [*find_compiler(), *flags, source.main, *lanes], cwd=tmp_path, capture_output=True, text=True, check=False
     )

@@ -32,7 +32,7 @@ class Reduced:
 
     @property
     def n(self) -> int:
-        return len(self.library.source.tree)
+        return len(self.library.source.tree_coordinates)
 
     @property
     def rows(self) -> int:
@@ -40,7 +40,7 @@ class Reduced:
 
     @property
     def chained(self) -> int:
-        return len(self.library.source.chain)
+        return len(self.library.source.driven_loop_coordinates)
 
     def chains(self, t: float, s: Array) -> tuple[Array, Array]:
         """Coordinates of the chains (c,) next to the guess in s, and three rates of each (3, c)."""

@@ -80,8 +80,8 @@ def test_table_of_the_shaker_in_closed_form(method: str, step: float | None) -> 
     """
     r, rod, omega = 0.01, 0.06, 60.0 * math.pi
     shaker = gudgeon.load("shaker")
-    assert (shaker.source.tree, shaker.source.closures) == (("arm",), ())
-    assert (shaker.source.chain, shaker.source.chain_rows) == (("rod",), ("guide.offset",))
+    assert (shaker.source.tree_coordinates, shaker.source.closures) == (("arm",), ())
+    assert (shaker.source.driven_loop_coordinates, shaker.source.driven_loop_equations) == (("rod",), ("guide.offset",))
     run = shaker.simulate(0.1, output=300, method=method, step=step)
     s, c = np.sin(omega * run.t), np.cos(omega * run.t)
     root = np.sqrt(rod**2 - (r * c) ** 2)
@@ -139,7 +139,7 @@ def test_trajectories_reactions_and_drives_of_all_coordinates(name: str, tmp_pat
     """Both formulations from start to end; drives, joints within the chain, and the balance of energy."""
     changed, chain = VARIANTS[name]
     reduced, full = (four_bar(tmp_path, formulation=kind, **changed) for kind in ("reduced", "full"))
-    assert sorted(reduced.source.chain) == sorted(chain)
+    assert sorted(reduced.source.driven_loop_coordinates) == sorted(chain)
     t_end = 0.02 if name == "play" else 0.5
     for method in ("dop853", "rodas5p"):
         one, two = (scene.simulate(t_end, output=50, rtol=1e-10, method=method) for scene in (reduced, full))
@@ -162,7 +162,7 @@ def test_trajectories_reactions_and_drives_of_all_coordinates(name: str, tmp_pat
 def test_chains_in_a_row_and_of_lengths(name: str, chain: tuple[str, ...]) -> None:
     """One group drives the next through a gear; positions of a body that no other one places."""
     reduced, full = (gudgeon.load(str(METHODS / f"{name}.yaml"), formulation=kind) for kind in ("reduced", "full"))
-    assert (reduced.source.tree, tuple(sorted(reduced.source.chain))) == (("arm",), chain)
+    assert (reduced.source.tree_coordinates, tuple(sorted(reduced.source.driven_loop_coordinates))) == (("arm",), chain)
     for method in ("dop853", "rodas5p"):
         one, two = (scene.simulate(1.0, output=50, rtol=1e-10, method=method) for scene in (reduced, full))
         assert one.q == pytest.approx(two.q, abs=1e-8)
@@ -227,7 +227,7 @@ def test_random_mechanisms_beside_a_driven_chain(seed: int) -> None:
     simulation = Simulation(CompiledModel(source, compile_kernels(source)), Path("random.yaml"))
     start = simulation.start()
     reduced, numbers = Reduced(simulation.compiled, simulation.p), Numbers(model, simulation.p)
-    assert ({"coupler", "rocker"} <= set(source.chain)) == (model.degrees_of_freedom > 0)
+    assert ({"coupler", "rocker"} <= set(source.driven_loop_coordinates)) == (model.degrees_of_freedom > 0)
     s, rate = reduced.reduce(0.0, start.q, start.v)
     for k in range(3):
         rng = np.random.default_rng(k)
@@ -240,7 +240,7 @@ def test_a_parallelogram_keeps_its_branch_where_links_lie_in_line(tmp_path: Path
     other = "crank: {length: 40 mm -> crank: {length: 80 mm; coupler: {length: 120 mm -> coupler: {length: 100 mm; "
     other += "coupler.theta: 30 deg, rocker.theta: 80 deg -> coupler.theta: 0 deg, rocker.theta: 0.5"
     simulation = four_bar(tmp_path, other=other)
-    assert simulation.source.chain
+    assert simulation.source.driven_loop_coordinates
     for method, step in (("dop853", None), ("rk4", 1e-3)):
         run = simulation.simulate(2.3, output=100, method=method, step=step)
         assert run["rocker.theta"] == pytest.approx(run["crank.theta"], abs=1e-11)
@@ -255,7 +255,7 @@ def test_a_dead_centre_is_named_where_it_is(tmp_path: Path) -> None:
     file = tmp_path / "shaker.yaml"
     file.write_text(text, encoding="utf-8")
     table = gudgeon.load(str(file))
-    assert set(table.source.chain) == {"crank", "rod"}
+    assert set(table.source.driven_loop_coordinates) == {"crank", "rod"}
     for method, step, close in (("dop853", None, 1e-8), ("rodas5p", None, 1e-8), ("rk4", 1e-4, 1e-4)):
         with pytest.raises(SolverError, match="dead centre.*(motor|guide.offset)") as failed:
             table.simulate(1.0, method=method, step=step)

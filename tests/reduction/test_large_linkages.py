@@ -94,7 +94,7 @@ def test_a_large_linkage_has_no_vector_code(monkeypatch: pytest.MonkeyPatch) -> 
     with_lanes = generate_c(model)
     monkeypatch.setattr(program, "MAX_COORDINATES_FOR_LANES", len(model.q) - 1)
     without_lanes = generate_c(model)
-    assert (with_lanes.lanes, without_lanes.lanes) == ("lanes.c", "")
+    assert (with_lanes.lane_file, without_lanes.lane_file) == ("lanes.c", "")
     assert set(with_lanes.files) - set(without_lanes.files) == {"lanes.c"}
     changed = {name for name, text in without_lanes.files.items() if text != with_lanes.files[name]}
     assert changed == {"model.h", "README.md"}

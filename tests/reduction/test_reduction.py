@@ -82,7 +82,7 @@ def check_state(
     library = reduced.library
     numbers.chains = reduced.chains(t, s)
     q, v = reduced.expand(t, s, rate)
-    assert close(library.phi(t, q, reduced.p), np.zeros(len(library.source.rows)), 1e-12, 1.0)
+    assert close(library.phi(t, q, reduced.p), np.zeros(len(library.source.equations)), 1e-12, 1.0)
     assert close(
         library.phi_q(t, q, reduced.p) @ v - library.nu(t, q, reduced.p), np.zeros(1), 1e-11, abs(v).max() + 1.0
     )
@@ -96,7 +96,7 @@ def check_state(
     for (i, k, _), value in zip(jacobian, numbers([e for *_, e in jacobian], t, s, rate), strict=True):
         got[i] += value * a[k]
     assert close(got, want.a[0], 1e-9, 1.0)
-    index = {row.name: r for r, row in enumerate(library.source.rows)}
+    index = {row.name: r for r, row in enumerate(library.source.equations)}
     shares = [numbers.system.tree.find_multiplier_terms(name) for name in library.source.closures]
     carried = [sum(sign * want.multipliers[0][index[row]] for row, sign in share.items()) for share in shares]
     assert close(multipliers, np.array(carried), 1e-8, float(abs(want.multipliers).max(initial=0.1)))
@@ -121,7 +121,7 @@ def test_shipped_mechanisms(name: str, scene: str) -> None:
         t = 0.01 * seed
         near = s + rng.normal(0.0, 1e-3 * seed, len(s)) * size
         here = reduced.close(t, near, rate + rng.normal(0.0, 0.1 * seed, len(s)))
-        memory = np.full(library.n_memory, np.nan) if seed % 2 else np.full(library.n_memory, 0.02)
+        memory = np.full(library.n_discrete_states, np.nan) if seed % 2 else np.full(library.n_discrete_states, 0.02)
         memory[len(model.clearances) :] = seed % 3 - 1.0  # frictions: stick, or slip either way
         check_state(reduced, numbers, t, *here, memory if memory.size else NAN)
 
@@ -130,7 +130,7 @@ def reduced_case(case: Case) -> tuple[Model, Reduced]:
     model = derive_scene(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
     source = generate_c(model)
     library = CompiledModel(source, compile_kernels(source))
-    slots = len(source.slots)
+    slots = len(source.parameters)
     return model, Reduced(library, library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
 
 
@@ -148,11 +148,13 @@ def test_random_mechanisms(seed: int) -> None:
     a, _ = numpy_linkage.accelerations(case.linkage, 0.0, case.q, case.v, 0.0, 0.0)
     picked = [
         3 * int(name[1:]) + 2
-        for name in reduced.library.source.tree
+        for name in reduced.library.source.tree_coordinates
         if f"{name}.theta" in reduced.library.source.coordinates
     ]
     angles = [
-        k for k, name in enumerate(reduced.library.source.tree) if f"{name}.theta" in reduced.library.source.coordinates
+        k
+        for k, name in enumerate(reduced.library.source.tree_coordinates)
+        if f"{name}.theta" in reduced.library.source.coordinates
     ]
     assert close(reduced.accelerations(0.0, s, rate, NAN)[0][angles], a[picked], 1e-9, 1.0)
 
@@ -194,7 +196,7 @@ def test_the_press_has_five_angles_and_one_closure() -> None:
     """Driven cranks are functions of t, the slide of the slider follows the rod, its angle does not move."""
     _, simulation = shipped("nine_bar_press", "lubricated")
     source = simulation.compiled.source
-    assert sorted(source.tree) == ["L2", "L3", "L6", "L7", "L8"]
+    assert sorted(source.tree_coordinates) == ["L2", "L3", "L6", "L7", "L8"]
     assert source.closures == ("guide.offset",)
     assert source.operations["reduced_dynamics"] < 0.35 * source.operations["dynamics"]
 
@@ -244,7 +246,7 @@ def test_sines_and_cosines() -> None:
     reduced = Reduced(simulation.compiled, simulation.p)
     names = [f"{body.name}.theta" for body in simulation.source.bodies]
     assert set(names) <= set(simulation.source.coordinates)
-    place = {name: k for k, name in enumerate(simulation.source.tree)}
+    place = {name: k for k, name in enumerate(simulation.source.tree_coordinates)}
     length = 0.18
     k, at = place["L6"], simulation.source.coordinates.index("L6.x")
     for angle in angles:

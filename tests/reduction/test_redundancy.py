@@ -53,7 +53,7 @@ def energy(theta: float) -> float:
 def test_third_crank_swings_like_two(load: Load) -> None:
     """One row says nothing new; by energy, ½ J ω² = V(50°) − V(θ), with J of three cranks and the coupler's mass."""
     run = load(PARALLELOGRAM.format(**THIRD_CRANK)).simulate(1.0, step=1e-3, output=100)
-    assert len(run.source.rows) == 11
+    assert len(run.source.equations) == 11
     inertia = 3 * (0.1 + 0.25) + 1.0
     omega = run["a.omega"]
     want = [2 * (energy(math.radians(50)) - energy(theta)) / inertia for theta in run["a.theta"].tolist()]
@@ -136,7 +136,7 @@ def test_flat_parallelogram_goes_on_as_its_rates_say(load: Load, driven: bool) -
     rates = "{c.omega: 8 rad/s}" if driven else "{a.omega: 8 rad/s, c.omega: 8 rad/s}"
     rest = f"{drive}start: {{{held}guess: {{b.theta: 0, c.theta: 0}}, rates: {rates}}}"
     run = load(PARALLELOGRAM.format(bodies="", joints="", rest=rest)).simulate(2.0, step=1e-3, output=200)
-    assert len(run.source.rows) == 8 + driven
+    assert len(run.source.equations) == 8 + driven
     assert np.abs(run["a.theta"] - run["c.theta"]).max() < 1e-9
     assert run["a.theta"][-1] > 10.0
 
@@ -217,7 +217,7 @@ def test_dead_centre_loses_no_row(load: Load) -> None:
     """Free, with the crank spinning: it runs through; energy says how fast."""
     rest = "start: {set: {crank.theta: 0}, rates: {crank.omega: 3 rad/s}, guess: {rod.theta: 0, slider.x: 3 m}}"
     run = load(SLIDER_CRANK.format(rest=rest)).simulate(1.0, step=1e-3, output=10)
-    assert len(run.source.rows) == 8
+    assert len(run.source.equations) == 8
     assert run.diagnostics.energy_residual < 1e-7
     assert run["crank.theta"][-1] > 1.0
 

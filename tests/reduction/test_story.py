@@ -38,7 +38,7 @@ def absolute_name(source: KernelSource, name: str) -> str:
 
 def replay(source: KernelSource) -> tuple[set[str], set[str]]:
     """Coordinates and rows after the last step; each step takes only what is there and brings only what is not."""
-    story = source.story
+    story = source.reduction_log
     coordinates, rows = set(story.coordinates), set(story.rows)
     for step, n, m in story.iterate_steps():
         assert set(step.gone) <= coordinates and set(step.rows_gone) <= rows
@@ -53,7 +53,7 @@ def replay(source: KernelSource) -> tuple[set[str], set[str]]:
 
 def check_ledger(source: KernelSource) -> None:
     coordinates, rows = replay(source)
-    assert coordinates == {absolute_name(source, name) for name in source.tree}
+    assert coordinates == {absolute_name(source, name) for name in source.tree_coordinates}
     assert rows == set(source.closures)
 
 
@@ -65,7 +65,7 @@ def check_known_angles(source: KernelSource, phi_q: np.ndarray) -> None:
     """No motion that the rows allow turns an angle that is prescribed or constant."""
     _, sizes, vt = np.linalg.svd(phi_q)
     independent = int((sizes > 1e-9 * sizes[0]).sum())
-    names = specified(source.story, message.PRESCRIBED) + specified(source.story, message.CONSTANT)
+    names = specified(source.reduction_log, message.PRESCRIBED) + specified(source.reduction_log, message.CONSTANT)
     known = [source.coordinates.index(name) for name in names]
     assert abs(vt[independent:, known]).max(initial=0.0) < 1e-9
 
@@ -83,7 +83,9 @@ def test_freedom_of_shipped_scenes(name: str, scene: str) -> None:
     check_ledger(source)
     closed, _ = near(simulation, 0)
     phi_q = simulation.compiled.phi_q(0.0, closed, simulation.p)
-    assert len(source.tree) - len(source.closures) == len(closed) - (compute_rank(phi_q) if len(phi_q) else 0)
+    assert len(source.tree_coordinates) - len(source.closures) == len(closed) - (
+        compute_rank(phi_q) if len(phi_q) else 0
+    )
     if len(phi_q):
         check_known_angles(source, phi_q)
 
@@ -95,7 +97,7 @@ def test_freedom_of_random_mechanisms(seed: int) -> None:
     source = generate_c(derive_scene(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal"))
     check_ledger(source)
     phi_q = numpy_linkage.rows(case.linkage, 0.0, case.q, case.v).phi_q
-    assert len(source.tree) - len(source.closures) == len(case.q) - compute_rank(phi_q)
+    assert len(source.tree_coordinates) - len(source.closures) == len(case.q) - compute_rank(phi_q)
     check_known_angles(source, phi_q)
 
 
@@ -106,11 +108,11 @@ def test_non_zeros(name: str, scene: str) -> None:
     source = simulation.source
     found = sum(abs(simulation.compiled.phi_q(0.3, near(simulation, seed)[1], simulation.p)) for seed in range(3))
     pattern = np.asarray(found) != 0.0
-    assert source.story.jacobian == pattern.sum()
-    solve = source.story.before
+    assert source.reduction_log.jacobian == pattern.sum()
+    solve = source.reduction_log.before
     assert solve is not None and solve.coordinates == len(source.coordinates)
     if not source.frictions:  # each is a row more
-        assert solve.rows == len(source.rows)
+        assert solve.rows == len(source.equations)
         assert solve.entries == len(source.coordinates) + 2 * pattern.sum()
         check_factor(solve)
 
@@ -132,9 +134,9 @@ def test_non_zeros_in_tree_coordinates(name: str, scene: str) -> None:
     """M_s = Jᵀ M J and Φ_s with J from differences of all positions: no entry is missed, and none counted in vain."""
     _, simulation = shipped(name, scene)
     source, library = simulation.source, simulation.compiled
-    solve = source.story.after
+    solve = source.reduction_log.after
     if solve is None:
-        assert source.story.groups
+        assert source.reduction_log.groups
         return
     reduced = Reduced(library, simulation.p)
     M = library.mass(simulation.p)
@@ -172,7 +174,7 @@ def test_as_many_loops_as_the_graph_has(name: str) -> None:
                 row[bodies.index(end)] += sign
     loops = len(joints) - np.linalg.matrix_rank(incidence)
     assert loops == len(joints) - len(bodies)
-    story = simulation.source.story
+    story = simulation.source.reduction_log
     assert all(placed.joint for placed in story.tree)
     assert len({name.rpartition(".")[0] for name in simulation.source.closures}) == loops
 
@@ -181,7 +183,7 @@ def test_as_many_loops_as_the_graph_has(name: str) -> None:
 def test_tree_places_every_body_once_behind_its_parent(name: str, scene: str) -> None:
     _, simulation = shipped(name, scene)
     placed = {"ground"}
-    for body in simulation.source.story.tree:
+    for body in simulation.source.reduction_log.tree:
         assert body.parent in placed and body.body not in placed
         placed.add(body.body)
     assert placed == {"ground"} | {body.name for body in simulation.source.bodies}
@@ -192,7 +194,7 @@ def test_the_tree_taken_is_the_cheapest() -> None:
     model, simulation = shipped("nine_bar_press", "ideal")
     tree = choose_tree(model)
     estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.shared_points)
-    costs = simulation.source.story.costs
+    costs = simulation.source.reduction_log.costs
     assert estimate(tree.edges) == min(costs) < costs[0]
 
 
@@ -200,28 +202,28 @@ def test_the_tree_taken_is_the_cheapest() -> None:
 def test_groups_are_solved_one_after_the_other(name: str) -> None:
     """Φ_s in the order of the groups is block triangular with regular blocks."""
     _, simulation = shipped(name, "ideal")
-    source, groups = simulation.source, simulation.source.story.groups
-    assert source.story.after is None
+    source, groups = simulation.source, simulation.source.reduction_log.groups
+    assert source.reduction_log.after is None
     assert sorted(row for group in groups for row in group.rows) == sorted(source.closures)
-    assert sorted(x for group in groups for x in group.coordinates) == sorted(source.tree)
+    assert sorted(x for group in groups for x in group.coordinates) == sorted(source.tree_coordinates)
     _, Phi_s = slopes(Reduced(simulation.compiled, simulation.p), near(simulation, 1)[1])
     solved: list[int] = []
     for group in groups:
         rows = [source.closures.index(row) for row in group.rows]
-        columns = [source.tree.index(name) for name in group.coordinates]
+        columns = [source.tree_coordinates.index(name) for name in group.coordinates]
         solved += columns
         assert abs(np.linalg.det(Phi_s[np.ix_(rows, columns)])) > 1e-6
-        later = [k for k in range(len(source.tree)) if k not in solved]
+        later = [k for k in range(len(source.tree_coordinates)) if k not in solved]
         assert abs(Phi_s[np.ix_(rows, later)]).max(initial=0.0) < 1e-9
 
 
 def test_full_formulation_opens_what_has_play_and_takes_nothing_else() -> None:
     model = derive_scene(find_shipped_file("slider_crank").read_bytes(), "slider_crank.yaml", "dry")
     source = generate_c(model, "full")
-    assert [step.kind for step in source.story.steps] == [message.PLAY]
+    assert [step.kind for step in source.reduction_log.steps] == [message.PLAY]
     coordinates, rows = replay(source)
-    assert coordinates == set(source.coordinates) and rows == {row.name for row in source.rows}
-    assert source.story.after == source.story.before and not source.story.tree
+    assert coordinates == set(source.coordinates) and rows == {row.name for row in source.equations}
+    assert source.reduction_log.after == source.reduction_log.before and not source.reduction_log.tree
 
 
 def test_redundant_rows_are_told() -> None:
@@ -233,9 +235,9 @@ def test_redundant_rows_are_told() -> None:
     )
     source = generate_c(derive_scene(text.encode(), "twice.yaml", "ideal"))
     check_ledger(source)
-    (step,) = (step for step in source.story.steps if step.kind == message.REDUNDANT)
+    (step,) = (step for step in source.reduction_log.steps if step.kind == message.REDUNDANT)
     assert step.rows_gone == ("two.x", "two.y") and step.owners == ("two",)
-    assert len(source.tree) - len(source.closures) == 1
+    assert len(source.tree_coordinates) - len(source.closures) == 1
 
 
 def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
@@ -248,7 +250,7 @@ def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
         "drives: {m: {angle: a, value: 60 deg}, n: {coordinate: a.x, value: 0.1 m}}\n"
     )
     source = generate_c(derive_scene(text.encode(), "contrary.yaml", "ideal"))
-    story = source.story
+    story = source.reduction_log
     assert not story.groups and story.after is not None and story.after.coordinates == len(source.coordinates)
     lines = dict(describe_reduced_system(source))
     assert lines["operations"].endswith(f"in absolute coordinates, {source.operations['project']}")
@@ -256,5 +258,5 @@ def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
 
 def test_story_survives_json() -> None:
     _, simulation = shipped("nine_bar_press", "ideal")
-    assert simulation.source.story.groups and simulation.source.story.before
-    assert KernelSource.from_json(simulation.source.to_json()).story == simulation.source.story
+    assert simulation.source.reduction_log.groups and simulation.source.reduction_log.before
+    assert KernelSource.from_json(simulation.source.to_json()).reduction_log == simulation.source.reduction_log

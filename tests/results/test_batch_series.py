@@ -37,7 +37,7 @@ def batch(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
         return gudgeon.load(EVERY_KIND).simulate_many({"parameters.k": [3000.0, 5000.0]}, 0.1, output=10)
     if request.param == "friction":
         belt = gudgeon.load("belt_block")
-        slot = next(slot for slot in belt.source.slots if slot.default)
+        slot = next(slot for slot in belt.source.parameters if slot.default)
         return belt.simulate_many({slot.address: slot.default * np.array([1.0, 1.1])}, 1.0, output=20)
     return valve(folder, kinematic=True).simulate_many({"w": [5.0, 7.0]}, 1.0, output=10)
 

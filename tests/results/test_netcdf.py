@@ -125,7 +125,7 @@ def test_a_table_has_a_row_a_sample_and_a_column_a_series(run: Result, ideal: Re
         assert len(result.to_xarray("events").to_dataframe()) == 0
         parameters = result.to_xarray("parameters").to_dataframe()
         assert parameters["value"].to_dict() == {
-            slot.address: result.parameters[slot.address] for slot in result.source.slots
+            slot.address: result.parameters[slot.address] for slot in result.source.parameters
         }
     with pytest.raises(InputError, match="impacts"):
         run.to_xarray("impact")

@@ -14,6 +14,7 @@ import pytest
 
 h5py = pytest.importorskip("h5py")
 
+from gudgeon.contract.kernel_source import STORED_NAMES  # noqa: E402
 from gudgeon.errors import InputError  # noqa: E402
 from gudgeon.results.results import Result, read  # noqa: E402
 from tests.results.old_results import save_old  # noqa: E402
@@ -180,7 +181,8 @@ def test_a_source_of_other_types_is_refused_or_right(
     refused = accepted = 0
     source, rng = json.loads(run.source.to_json()), random.Random(3)
     if stored == "in full":
-        source = json.loads(json.dumps(asdict(run.source)))
+        in_full = {STORED_NAMES.get(name, name): value for name, value in asdict(run.source).items()}
+        source = json.loads(json.dumps(in_full))
     for key in source:
         for wrong in rng.sample((*WRONG, "left out"), 6):
             changed = source | {key: wrong}

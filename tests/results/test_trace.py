@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators.trajectory import TRACE_ROWS
+from gudgeon.integrators.trajectory import MAX_ENVELOPE_ROWS
 from gudgeon.results.figures import joint_curves
 from gudgeon.results.figures.plots import draw_run_figure
 from gudgeon.results.results import Result
@@ -29,7 +29,7 @@ def test_rows_tell_the_extremes_of_their_steps(steps: int, stride: int) -> None:
     """Of 1, 2 or 4 steps each, as many as it takes to stay below the bound; none is forgotten."""
     run = by_steps(steps)
     trace = run.trace
-    assert trace is not None and -(-(steps + 1) // stride) <= len(trace.t) <= TRACE_ROWS  # events end steps, too
+    assert trace is not None and -(-(steps + 1) // stride) <= len(trace.t) <= MAX_ENVELOPE_ROWS  # events end steps, too
     ends = np.searchsorted(run.t, trace.t, side="right")  # samples up to a row's end: the ends of the grid
     first = np.concatenate([[0], ends[:-1]])
     some = ends > first

@@ -175,7 +175,7 @@ def test_titles_are_text_and_a_page_needs_no_other(tmp_path: Path) -> None:
 def test_films_say_where_they_are_left(press: tuple[Result, Result]) -> None:
     """Of the law that the joint's C calls."""
     run, _ = press
-    p = {slot.address: x for slot, x in zip(run.source.slots, run.p, strict=False)}
+    p = {slot.address: x for slot, x in zip(run.source.parameters, run.p, strict=False)}
     radius, c, length = (p[f"bearings.pin.{key}"] for key in ("radius", "clearance", "length"))
     files = run.source.files["clearance.c"]
     message = {}

@@ -113,7 +113,7 @@ def test_right_runs_hold_the_conditions_of_their_states(name: str, scene: str, t
     rng = np.random.default_rng(sum(map(ord, name + scene)))
     simulation = gudgeon.load(name, scene)
     for method in simulation.source.methods:
-        slot = simulation.source.slots[int(rng.integers(len(simulation.source.slots)))]
+        slot = simulation.source.parameters[int(rng.integers(len(simulation.source.parameters)))]
         how: dict[str, Any] = {"step": step} if method == "rk4" else {"rtol": 10.0 ** -float(rng.integers(4, 11))}
         values = {slot.address: slot.default * rng.uniform(0.999, 1.001)}
         run = simulation.simulate(t_end, output=20, method=method, audit="full", parameters=values, **how)

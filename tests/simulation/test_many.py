@@ -168,7 +168,7 @@ def test_a_run_that_fails_stops_no_other() -> None:
 def test_columns_rows_and_structured_arrays_are_the_same() -> None:
     simulation = gudgeon.load("four_bar")
     omega = [1.0, 2.0]
-    address = next(slot.address for slot in simulation.source.slots if slot.unit in ("1/s", "rad/s"))
+    address = next(slot.address for slot in simulation.source.parameters if slot.unit in ("1/s", "rad/s"))
     table = np.array([(w,) for w in omega], dtype=[(address, "f8")])
     sets: tuple[Any, ...] = ({address: omega}, {address: np.array(omega)}, [{address: w} for w in omega], table)
     first, *others = [simulation.simulate_many(given, 0.1, output=5) for given in sets]

@@ -42,7 +42,7 @@ def test_the_motion_is_the_same_to_the_bit(name: str, tmp_path: Path) -> None:
     requested: dict[str, Any] = {"t_end": 0.1, "output": 200}
     with_masses = gudgeon.load(ROOT / name).simulate(**requested)
     without = gudgeon.load(stripped(name, tmp_path)).simulate(**requested)
-    assert without.source.massless and without.diagnostics.method == "kinematic"
+    assert without.source.massless_bodies and without.diagnostics.method == "kinematic"
     np.testing.assert_array_equal(without.q, with_masses.q)
     for ours, theirs in ((without.v, with_masses.v), (without.a, with_masses.a)):
         np.testing.assert_array_equal(ours[1:], theirs[1:])
@@ -87,7 +87,7 @@ def test_what_follows_from_masses_is_left_out(tmp_path: Path) -> None:
     run = gudgeon.load(stripped(KINEMATIC[0], tmp_path)).simulate(t_end=0.1, output=10)
     message = [name for name in run.names if re.search(r"\.(F|Fx|Fy|M|torque)$|^(lambda|energy|work)\.", name)]
     assert not message
-    joint, row = run.source.joints[0].name, run.source.rows[0].name
+    joint, row = run.source.joints[0].name, run.source.equations[0].name
     for name in ("energy.kinetic", "work.drives", f"{joint}.F", f"lambda.{row}"):
         with pytest.raises(UnknownNameError, match="have no mass or no inertia\n  give every body mass: and inertia:"):
             run[name]
@@ -154,8 +154,8 @@ def test_mass_without_inertia_asks_for_nothing_where_nothing_moves_by_forces(tmp
     """And no mass of the others is a number of a run: it would change nothing."""
     file = stripped("mechanisms/slider_crank.yaml", tmp_path, "inertia", "rod")
     source = gudgeon.load(file, scene="ideal").source
-    assert source.massless == ("rod",)
-    assert not [slot.address for slot in source.slots if slot.address.endswith((".mass", ".inertia"))]
+    assert source.massless_bodies == ("rod",)
+    assert not [slot.address for slot in source.parameters if slot.address.endswith((".mass", ".inertia"))]
 
 
 def test_auto_without_a_mass_lacks_the_mass_alone(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.model.parameters import prepare_values
+from gudgeon.model.parameters import compute_parameter_values
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import make_axis, parse_axis
@@ -76,7 +76,7 @@ def weight(density: float) -> tuple[float, float]:
 
 def found(simulation: Simulation, parameters: dict[str, Any]) -> tuple[float, float, float]:
     """K, and the body's mass and moment of inertia."""
-    p = prepare_values(simulation.compiled, parameters)[0]
+    p = compute_parameter_values(simulation.compiled, parameters)[0]
     mass = simulation.compiled.mass(p)
     return float(p[simulation.source.clearances[0].constants["K"]]), float(mass[0]), float(mass[2])
 
@@ -114,7 +114,7 @@ def test_two_roles_of_one_material_have_the_bits_of_one_number(tmp_path: Path) -
     one = gudgeon.load(file, "dry")
     file.write_text(TEXT)
     two, rng = gudgeon.load(file, "dry"), np.random.default_rng(9)
-    assert not any(slot.words for slot in one.source.slots)
+    assert not any(slot.words for slot in one.source.parameters)
     for E, nu in zip(rng.uniform(1e9, 4e11, 500), rng.uniform(-0.5, 0.49, 500), strict=True):
         given = {"materials.steel.E": float(E), "materials.steel.nu": float(nu)}
         assert found(one, given)[0] == found(two, given)[0]
@@ -223,9 +223,9 @@ def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
 def test_equations_in_numpy_take_names(scenes: Scenes, scene: str, parameters: dict[str, Any]) -> None:
     simulation = getattr(scenes, scene)
     model = simulation.model.numpy()
-    given, here = prepare_values(simulation.compiled, parameters)[0], model.prepare(parameters)
+    given, here = compute_parameter_values(simulation.compiled, parameters)[0], model.prepare(parameters)
     slots = model.model.parameter_table
-    for k, slot in enumerate(simulation.source.slots):
+    for k, slot in enumerate(simulation.source.parameters):
         if not slot.words:
             assert getattr(here, slots.find_member_name(slots.entries[slot.address].symbol)) == given[k], slot.address
     np.testing.assert_array_equal(model.mass(here), simulation.compiled.mass(given))

@@ -152,7 +152,7 @@ def test_simulate_many(pendulum: Simulation, name: str) -> None:
 
 @pytest.mark.parametrize("where", ["a run", "a batch", "a column", "the start"])
 def test_a_parameter(pendulum: Simulation, where: str) -> None:
-    address = pendulum.source.slots[0].address
+    address = pendulum.source.parameters[0].address
     calls: dict[str, Callable[[Any], object]] = {
         "a run": lambda value: pendulum.simulate(**RUN, parameters={address: value}),
         "a batch": lambda value: pendulum.simulate_many([{address: value}], **RUN),
@@ -213,7 +213,7 @@ COMPILED: dict[str, tuple[str, ...]] = {
 @pytest.mark.parametrize(("method", "name"), [(method, name) for method, names in COMPILED.items() for name in names])
 def test_compiled(pendulum: Simulation, method: str, name: str) -> None:
     compiled = pendulum.full.compiled
-    n, slots = compiled.n, len(compiled.source.slots)
+    n, slots = compiled.n, len(compiled.source.parameters)
     good: dict[str, Any] = {
         "t": 0.0,
         "y": np.zeros(2 * n),
@@ -363,13 +363,13 @@ def test_map(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.parametrize("name", BOX)
 def test_stress_box(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(maps, "TaskPool", _NoPool)
-    ranges = [box.Range(pendulum.source.slots[0].address, 1.0, 2.0)]
+    ranges = [box.Range(pendulum.source.parameters[0].address, 1.0, 2.0)]
     good: dict[str, Any] = {"ranges": ranges, "count": 2}
     refused_or_used(lambda value: maps.compute_verdict_box(pendulum, **(good | {name: value})))
 
 
 def test_axes(pendulum: Simulation) -> None:
-    address = pendulum.source.slots[0].address
+    address = pendulum.source.parameters[0].address
     refused_or_used(lambda value: axes.make_axis(pendulum, value, [1.0]))
     refused_or_used(lambda value: axes.make_axis(pendulum, address, value))
     refused_or_used(lambda value: axes.make_axis(pendulum, address, [1.0], value))
@@ -413,7 +413,7 @@ def test_what_is_told(pendulum: Simulation) -> None:
 
 
 def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
-    address = pendulum.source.slots[0].address
+    address = pendulum.source.parameters[0].address
     value = float(pendulum.p[0]) * 1.25
     series, plain = (
         pendulum.simulate(0.1, output=2, parameters=p) for p in (pandas.Series({address: value}), {address: value})

@@ -66,7 +66,7 @@ def load(mechanism: str, scene: str) -> Simulation:
 
 def fitting(sim: Simulation, names: tuple[str, ...]) -> tuple[tuple[str, ...], np.ndarray[Any, Any]]:
     """Those of the names that the scene has, else its first number that is not zero; and the file's values."""
-    defaults = {slot.address: slot.default for slot in sim.source.slots if not slot.words}
+    defaults = {slot.address: slot.default for slot in sim.source.parameters if not slot.words}
     known = tuple(x for x in names if x in defaults or f"parameters.{x}" in defaults)
     known = known or tuple([next(name for name in defaults if defaults[name] != 0.0)][: len(names)])
     return known, np.array([defaults.get(x, defaults.get(f"parameters.{x}", 0.0)) for x in known])
@@ -324,13 +324,13 @@ def test_an_optimizer_finds_gravity() -> None:
 def test_tolerances_are_those_of_simulate(mechanism: str, scene: str, names: tuple[str, ...]) -> None:
     """Bit for bit, for lengths and clearances that change."""
     sim = load(mechanism, scene)
-    lengths = [x.address for x in sim.source.slots if x.dimension == (1, 0, 0) and x.default > 0.0][:12]
+    lengths = [x.address for x in sim.source.parameters if x.dimension == (1, 0, 0) and x.default > 0.0][:12]
     prepared = sim.prepare(lengths, (), 0.01, output=1, rtol=1e-7, fixed={})
     base = np.array([default for default in (fitting(sim, (name,))[1][0] for name in lengths)])
     run = prepared._run
     assert run and lengths
     for scale in (1.0, 1.001, 0.99):
-        assert run.columns.compute_row(base * scale, 1) and run.update_tolerances(1)
+        assert run.columns.compute_values_of_row(base * scale, 1) and run.update_tolerances(1)
         p = run.columns.p[1]
         expected = compute_tolerances(sim.compiled, p, 1e-7)
         assert run.arrays["scale"][1].tobytes() == expected[0].tobytes()

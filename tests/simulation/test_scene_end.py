@@ -14,7 +14,7 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.model.default_step import evaluate_end, evaluate_scene_end, evaluate_scene_step
+from gudgeon.model.default_step import evaluate_file_end_time, evaluate_scene_end_time, evaluate_scene_step
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.bench import measure_scene
 from gudgeon.studies.runs import Setting, find_comparison_window
@@ -89,8 +89,8 @@ def test_a_value_that_does_not_fit_is_told_where_it_was_written(worn: Simulation
 
 
 def test_studies_take_the_numbers_that_they_are_given(worn: Simulation, plain: Simulation) -> None:
-    assert evaluate_end(worn.compiled, {"omega": 40.0}) == pytest.approx(end(40.0), rel=1e-15)
-    assert evaluate_scene_end(worn.source, worn.p) == pytest.approx(end(20.0), rel=1e-15)
+    assert evaluate_file_end_time(worn.compiled, {"omega": 40.0}) == pytest.approx(end(40.0), rel=1e-15)
+    assert evaluate_scene_end_time(worn.source, worn.p) == pytest.approx(end(20.0), rel=1e-15)
     assert evaluate_scene_step(worn.compiled, worn.p, 1.0) == pytest.approx(5e-6, rel=1e-15)
     assert find_comparison_window(worn, 1.0, Setting("dop853", 1e-8), {"omega": 200.0}).t_end <= end(200.0)
     assert measure_scene(plain, parameters={"omega": 40.0}, quick=True).t_end == pytest.approx(end(40.0), rel=1e-15)
@@ -98,7 +98,7 @@ def test_studies_take_the_numbers_that_they_are_given(worn: Simulation, plain: S
 
 def test_a_source_is_stored_with_it(worn: Simulation, tmp_path: Path) -> None:
     assert KernelSource.from_json(worn.source.to_json()) == worn.source
-    assert [one.address for one in worn.source.simulate_written] == [
+    assert [one.address for one in worn.source.simulate_expressions] == [
         f"scenes.worn.simulate.{name}" for name in ("t_end", "output", "step")
     ]
     pytest.importorskip("h5py")

@@ -14,7 +14,7 @@ import pytest
 import gudgeon
 from gudgeon.contract.boundary import AUDIT_FAILS, N_CHECKS, N_WORK
 from gudgeon.errors import AuditError
-from gudgeon.integrators.single_run import MAX_FREE
+from gudgeon.integrators.single_run import MAX_UNUSED_RUNS
 from gudgeon.model.deferred_fields import find_deferred_function
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -215,7 +215,7 @@ def test_threads_have_memory_of_their_own_and_little_of_it_is_kept() -> None:
     expected = [run(k) for k in range(30)]
     with ThreadPoolExecutor(4) as pool:
         assert list(pool.map(run, range(30))) == expected
-    for k in range(2 * MAX_FREE):
+    for k in range(2 * MAX_UNUSED_RUNS):
         simulation.simulate(1e-4, output=1 + k)
-    free = simulation.compiled.free_runs
-    assert len(free) <= MAX_FREE and all(len(runs) <= MAX_FREE for runs in free.values())
+    free = simulation.compiled.unused_runs
+    assert len(free) <= MAX_UNUSED_RUNS and all(len(runs) <= MAX_UNUSED_RUNS for runs in free.values())

@@ -64,7 +64,7 @@ def cart(tmp_path: Path) -> Simulation:
 
 
 def default(sim: Simulation, name: str) -> float:
-    return next(slot.default for slot in sim.source.slots if slot.address in (name, f"parameters.{name}"))
+    return next(slot.default for slot in sim.source.parameters if slot.address in (name, f"parameters.{name}"))
 
 
 def last(run: Result, names: tuple[str, ...]) -> bytes:

@@ -71,7 +71,7 @@ def simulate(options: dict[str, Any], output: int = 200) -> Callable[[Simulation
 
 def many(options: dict[str, Any], n_runs: int = 4) -> Callable[[Simulation], object]:
     def work(simulation: Simulation) -> object:
-        slot = next(slot for slot in simulation.source.slots if slot.default)
+        slot = next(slot for slot in simulation.source.parameters if slot.default)
         columns = {slot.address: slot.default * np.linspace(1.0, 1.1, n_runs)}
         return simulation.simulate_many(columns, 0.05, output=200, threads=1, **options)["energy.kinetic"]
 
@@ -120,7 +120,7 @@ def test_two_runs_are_in_c_at_once(options: dict[str, Any], monkeypatch: pytest.
 
     press = gudgeon.load("nine_bar_press", "dry")
     alone = [press.simulate(0.02, output=20, parameters={"c": c}, **options) for c in (4e-4, 5e-4)]
-    press.compiled.free_runs.clear()  # reused runs poll at the interval at which they were created
+    press.compiled.unused_runs.clear()  # reused runs poll at the interval at which they were created
     monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
     monkeypatch.setattr(cancellation.CancellationPoll, "poll_from_c", answer)
 

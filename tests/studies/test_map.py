@@ -238,7 +238,7 @@ def test_axes_that_do_not_fit_are_refused() -> None:
 def test_groups_keep_the_ratios_of_their_numbers() -> None:
     gains = make_axis(press("dry"), "gains", [10.0])
     p = press("dry").p
-    place = {slot.address: k for k, slot in enumerate(press("dry").source.slots)}
+    place = {slot.address: k for k, slot in enumerate(press("dry").source.parameters)}
     first, second = p[place["baumgarte.alpha"]], p[place["baumgarte.beta"]]
     assert gains.build_parameters(10.0) == {
         "baumgarte.alpha": 10.0,

@@ -17,7 +17,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.engine import build_include_flags, parse_sizes, select_declarations
-from gudgeon.loading.shipped import find_shipped_file, list_generated
+from gudgeon.loading.shipped import find_shipped_file, list_generated_scenes
 from tests.slow import slow_but
 
 METHODS, VALID = (Path(__file__).parents[1] / "mechanisms" / folder for folder in ("methods", "valid"))
@@ -26,7 +26,7 @@ WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AM
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
     (name, scene)
-    for name in list_generated()
+    for name in list_generated_scenes()
     for scene in read_mechanism(find_shipped_file(name).read_bytes(), name, None).scenes
 ]
 WIDEST = ("nine_bar_press", "lubricated")  # under every width of vectors; the others under the first
@@ -112,14 +112,14 @@ def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequen
 def test_no_warning(compiler: str, of: tuple[str, str], tmp_path: Path) -> None:
     source = gudgeon.load(*of).source
     main = write(source, tmp_path)
-    for part in ("0", *map(str, source.units)):
+    for part in ("0", *map(str, source.compilation_units)):
         compile_c(compiler, main, [*FLAGS, f"-DPART={part}", "-c", "-o", "scene.o"])
     engine = ["-Wshadow", "-Wconversion", "-Wmissing-prototypes"]
     (tmp_path / "loops.c").write_text('#include "engine/engine.c"\n', encoding="utf-8")
     compile_c(compiler, tmp_path / "loops.c", [*FLAGS, *engine, "-c", "-o", "loops.o"])
-    if source.lanes:
+    if source.lane_file:
         for width in WIDTHS if of == WIDEST else WIDTHS[:1]:
-            compile_c(compiler, tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
+            compile_c(compiler, tmp_path / source.lane_file, [*FLAGS, *width, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize(("name", "scene"), SCENES)
@@ -127,7 +127,7 @@ def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Pat
     """Of what one compiler sees without optimizing."""
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
-    for file in (main, *([tmp_path / source.lanes] if source.lanes else [])):
+    for file in (main, *([tmp_path / source.lane_file] if source.lane_file else [])):
         compile_c(COMPILERS[0], file, [*FLAGS, "-fsyntax-only"])
 
 
@@ -180,9 +180,9 @@ def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     source = generate_kernel_source(file.read_bytes(), file.name, "oiled", OPTIONS[option])
     main = write(source, tmp_path)
     compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
-    assert source.lanes
+    assert source.lane_file
     for width in WIDTHS[:1]:
-        compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
+        compile_c(COMPILERS[0], tmp_path / source.lane_file, [*FLAGS, *width, "-c", "-o", "lanes.o"])
 
 
 def test_no_warning_where_there_is_taylors_method(tmp_path: Path) -> None:
@@ -191,7 +191,7 @@ def test_no_warning_where_there_is_taylors_method(tmp_path: Path) -> None:
     source = generate_kernel_source(file.read_bytes(), file.name, "ideal", None, "taylor")
     compile_c(COMPILERS[0], write(source, tmp_path), [*FLAGS, "-c", "-o", "scene.o"])
     for width in WIDTHS:
-        compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
+        compile_c(COMPILERS[0], tmp_path / source.lane_file, [*FLAGS, *width, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize("of", slow_but((WIDEST, *TYPICAL), SCENES), ids="-".join)

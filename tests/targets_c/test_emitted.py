@@ -30,7 +30,7 @@ def compiled(which: str | int) -> tuple[Model, CompiledModel, np.ndarray]:
     model = press(which) if isinstance(which, str) else random_model(which)[1]
     source = generate_c(model)
     library = CompiledModel(source, compile_kernels(source))
-    slots = len(source.slots)
+    slots = len(source.parameters)
     return model, library, library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool))
 
 

@@ -29,5 +29,5 @@ def test_of_runs_side_by_side_too(tmp_path: Path) -> None:
     text = MECHANISMS.joinpath("nine_bar_press.yaml").read_text(encoding="utf-8")
     text += "\nevents: {rev: {zero: sin(L1.theta)}, other: {zero: cos(t*1 rad/s)}}\n"
     source = generate_kernel_source(text.encode(), "f", "dry")
-    assert source.lanes
+    assert source.lane_file
     check_syntax(source, tmp_path)

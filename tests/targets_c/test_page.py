@@ -102,8 +102,8 @@ def each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
     assert struct
     fields = re.sub(r"^( *)/\* (.*) \*/\n( *double \w+;)$", r"\3  /* \2 */", struct[1], flags=re.M)
     lines = [re.fullmatch(r"    double \w+;  /\* (.+) \*/", line) for line in fields.splitlines()]
-    assert len(lines) == len(source.slots) + len(source.derived) and all(lines)
-    for slot, line in zip(source.slots, lines, strict=False):
+    assert len(lines) == len(source.parameters) + len(source.derived) and all(lines)
+    for slot, line in zip(source.parameters, lines, strict=False):
         message = line and re.fullmatch(re.escape(slot.address) + r", (?:[\w ]+, )?([\w^/()*.]+)", line[1])
         assert message and not re.search(r"kg.*s", message[1]), "units have names"
 

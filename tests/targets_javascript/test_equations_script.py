@@ -56,8 +56,8 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
     found = make_highlight_index(derive_scene(file.read_bytes(), str(file), scene))
     compiled = gudgeon.load(mechanism, scene).compiled
     source = compiled.source
-    p = compiled.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    p = compiled.prepare(np.zeros(len(source.parameters)), np.zeros(len(source.parameters), dtype=bool))
+    place = {slot.address: k for k, slot in enumerate(source.parameters)}
     alpha, beta = (float(p[place[f"baumgarte.{name}"]]) for name in ("alpha", "beta"))
     states = [random_state(found.model, seed) for seed in range(4)]
     given = [{"t": t, "q": q.tolist(), "v": v.tolist(), "p": p.tolist()} for t, q, v in states]
@@ -84,7 +84,7 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
         assert np.allclose(filled, want, rtol=eps, atol=eps * scale)
         assert np.array_equal(filled[np.abs(want) == 1.0], want[np.abs(want) == 1.0])
         if gaps:
-            free = np.full((1, compiled.n_memory), np.nan)
+            free = np.full((1, compiled.n_discrete_states), np.nan)
             columns = compiled.evaluate([t], q[None], v[None], free, p).clearance[0]
             of = {name: columns[:, k] for k, name in enumerate(CLEARANCE_COLUMNS)}
             c = [p[joint.clearance] for joint in source.clearances]

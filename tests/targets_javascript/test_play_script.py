@@ -105,11 +105,13 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
     folder, rng = tmp_path_factory.mktemp("play"), np.random.default_rng(11)
     simulation, found = derived(request.param, folder)
     compiled, start, count = simulation.compiled, simulation.start(), 4000
-    p = compiled.prepare(np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=bool))
+    p = compiled.prepare(
+        np.zeros(len(compiled.source.parameters)), np.zeros(len(compiled.source.parameters), dtype=bool)
+    )
     q = start.q + np.geomspace(2e-5, 2e-3, count)[:, None] * rng.uniform(-1.0, 1.0, compiled.n)
     v = start.v + rng.normal(0.0, 0.2, (count, compiled.n))
     joints = [joint.label for joint in found.model.clearances]
-    memory = rng.uniform(-1.5e-5, 1.5e-5, (count, compiled.n_memory))
+    memory = rng.uniform(-1.5e-5, 1.5e-5, (count, compiled.n_discrete_states))
     memory[:, : len(joints)] = np.where(rng.random((count, len(joints))) < 0.5, np.nan, 0.3)
     table = compiled.evaluate(np.zeros(count), q, v, memory, p).clearance
     deep = table[:, :, CLEARANCE_COLUMNS.index("e")] - p[[one.clearance for one in compiled.source.clearances]]

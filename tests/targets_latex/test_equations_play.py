@@ -82,7 +82,7 @@ def read(variant: str, scene: str) -> dict[str, list[str]]:
 def library_of(variant: str, scene: str) -> tuple[CompiledModel, np.ndarray]:
     source = generate_c(model_of(variant, scene))
     library = CompiledModel(source, compile_kernels(source))
-    return library, library.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))
+    return library, library.prepare(np.zeros(len(source.parameters)), np.zeros(len(source.parameters), dtype=bool))
 
 
 def joint_numbers(document: dict[str, list[str]], joint: str) -> dict[str, float]:

@@ -17,7 +17,7 @@ from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.write import render_equations_text
 from gudgeon.generator.targets.numpy import printer
-from gudgeon.loading.shipped import find_shipped_file, list_generated
+from gudgeon.loading.shipped import find_shipped_file, list_generated_scenes
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import random_case
@@ -27,7 +27,7 @@ from tests.slow import slow_but
 pytestmark = needs_compiler
 SCENES = [
     (name, scene)
-    for name in list_generated()
+    for name in list_generated_scenes()
     for scene in read_mechanism(find_shipped_file(name).read_bytes(), name, None).scenes
 ]
 
@@ -70,7 +70,7 @@ def check(simulation: Simulation) -> None:
     joints, frictions = len(simulation.source.clearances), len(simulation.source.frictions)
     numbers = model.prepare()
     slots = model.model.parameter_table
-    names = [slots.find_member_name(slots.entries[slot.address].symbol) for slot in simulation.source.slots]
+    names = [slots.find_member_name(slots.entries[slot.address].symbol) for slot in simulation.source.parameters]
     in_c = dict(zip([*names, *(f"{name}_" for name in simulation.source.derived)], p.tolist(), strict=True))
     shared = [name for name in vars(numbers) if name in in_c]
     assert set(names) <= set(shared)

@@ -361,7 +361,7 @@ def test_text_of_a_file_is_no_markup() -> None:
 def test_a_slider_of_a_share_of_pi_is_in_degrees(tmp_path: Path) -> None:
     (tmp_path / "sides.yaml").write_text(SIDES, encoding="utf-8")
     simulation = gudgeon.load(tmp_path / "sides.yaml", "ideal")
-    p = np.array([slot.default for slot in simulation.source.slots])
+    p = np.array([slot.default for slot in simulation.source.parameters])
     ((phase, *_), *_) = (section["numbers"] for section in build_parameter_sections(simulation, p))
     assert (phase["name"], phase["unit"]) == ("phase", "deg") and np.pi / 6 / phase["factor"] == pytest.approx(30)
 

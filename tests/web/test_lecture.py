@@ -13,7 +13,7 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.errors import AssemblyError  # noqa: E402
 from gudgeon.language.units import UNITS, make_dimension  # noqa: E402
-from gudgeon.model.parameters import prepare_values  # noqa: E402
+from gudgeon.model.parameters import compute_parameter_values  # noqa: E402
 from gudgeon.web import drift  # noqa: E402
 from gudgeon.web.parameter_panel import build_parameter_sections, list_units  # noqa: E402
 from tests.web.chromium import written  # noqa: E402
@@ -31,7 +31,7 @@ def test_sliders_reach_nothing_that_is_refused() -> None:
     ]
     assert len(ends) > 100
     for k, end in ends:
-        prepare_values(press.compiled, {press.source.slots[k].address: end})
+        compute_parameter_values(press.compiled, {press.source.parameters[k].address: end})
     c = next(
         one for group in build_parameter_sections(press, press.p) for one in group["numbers"] if one["name"] == "c"
     )
@@ -42,7 +42,7 @@ def test_units_that_a_field_takes_are_those_of_its_dimension() -> None:
     source = gudgeon.load("nine_bar_press", "lubricated").source
     used = list_units(source)
     assert used["m"]["mm"] == 1e-3 and used["s"]["ms"] == 1e-3 and used["1/s"]["rpm"] == pytest.approx(np.pi / 30)
-    for slot in source.slots:
+    for slot in source.parameters:
         for name in used[slot.unit] if not slot.words else ():
             assert UNITS[name][1] == make_dimension(*slot.dimension)
 
@@ -106,7 +106,7 @@ def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, page_of_
     """Gains are shown where they act; Φ drifts without them. A guess that only Python follows; a run of one sample."""
     four_bar = gudgeon.load("four_bar")
     shown = opened(page_of_four_bar)
-    page, place = shown.page, {slot.address: k for k, slot in enumerate(four_bar.source.slots)}
+    page, place = shown.page, {slot.address: k for k, slot in enumerate(four_bar.source.parameters)}
     worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
     assert page.evaluate(f"{BOX}.hidden") and page.evaluate(worst) < 1e-14 and shown.same_bits(four_bar.simulate())
     page.select_option("#g-run-method", "rk4")

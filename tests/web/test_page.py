@@ -205,7 +205,7 @@ def test_numbers_beyond_all_prefixes_have_none(opened: Any, press: Path) -> None
 def test_constraints_drift_where_nothing_holds_them(opened: Any, pendulum: Path) -> None:
     """The pendulum in all its coordinates by rk4: with gains less than without, not at all when reduced."""
     shown, native = opened(pendulum), gudgeon.load("pendulum")
-    page, place = shown.page, {slot.address: k for k, slot in enumerate(native.source.slots)}
+    page, place = shown.page, {slot.address: k for k, slot in enumerate(native.source.parameters)}
     worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
     page.select_option("#g-run-method", "rk4")
     shown.wait()

@@ -21,7 +21,7 @@ from gudgeon.drawing.rig import FRAME_TOL, Rig, make_rig  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
 from gudgeon.drawing.sketch import compute_common_box, make_sketch  # noqa: E402
 from gudgeon.loading.shipped import list_shipped_mechanisms  # noqa: E402
-from gudgeon.model.parameters import prepare_values  # noqa: E402
+from gudgeon.model.parameters import compute_parameter_values  # noqa: E402
 from gudgeon.results.figures.configurations import compute_configuration, select_configurations  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import build_description  # noqa: E402
@@ -86,15 +86,17 @@ def test_a_slider_with_play_is_carried_between_its_walls() -> None:
     others = [replace(compute_configuration(run, float(t)), v=run.v[0]) for t in run.t[5::9]]
     assert np.ptp([configuration.q[7] for configuration in others]) > 1.9e-3  # from wall to wall
     assert max(off(rig, configuration, plan, box) for configuration in others) < FRAME_TOL
-    numbers = prepare_values(gudgeon.load("guided_slider_crank", "hard").compiled, {"parameters.c": 2e-4})[0]
+    numbers = compute_parameter_values(gudgeon.load("guided_slider_crank", "hard").compiled, {"parameters.c": 2e-4})[0]
     assert off(rig, replace(others[0], p=numbers), plan, box) < FRAME_TOL
 
 
 def test_a_length_moves_what_it_carries() -> None:
     """The four-bar with another crank and another coupler point, at coordinates that close nothing."""
     run, rig, plan, box = ran("four_bar")
-    place = {slot.address: k for k, slot in enumerate(run.source.slots)}
-    p, *_ = prepare_values(gudgeon.load("four_bar").compiled, {"bodies.rocker.length": 0.09, "ground.B0.x": 0.13})
+    place = {slot.address: k for k, slot in enumerate(run.source.parameters)}
+    p, *_ = compute_parameter_values(
+        gudgeon.load("four_bar").compiled, {"bodies.rocker.length": 0.09, "ground.B0.x": 0.13}
+    )
     assert p[place["bodies.rocker.length"]] == 0.09
     configuration = replace(select_configurations(run, 2)[1], p=p, v=run.v[0])
     assert off(rig, configuration, plan, box) < NEAR

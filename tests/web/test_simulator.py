@@ -253,7 +253,7 @@ scenes:
 @pytest.mark.parametrize(("text", "scene"), [(SWING, "ideal"), (CRANK, "stopped")])
 def test_events_are_noted_and_end_a_run(text: str, scene: str, tmp_path: Path) -> None:
     simulation = loader(tmp_path)(text, scene)
-    method = "dop853" if simulation.source.taylor else "auto"  # a page has no Taylor series
+    method = "dop853" if simulation.source.taylor_file else "auto"  # a page has no Taylor series
     native = simulation.simulate(method=method, **WHILE)
     (found,) = in_node(simulation, tmp_path, [{"options": WHILE, "slices": True}])
     names = [event.name for event in simulation.source.events]

@@ -63,7 +63,7 @@ def test_a_row_lights_its_lines_with_the_run_s_values(typed: tuple[Opened, Resul
     t, q, v = float(run.t[SAMPLE]), run.q[SAMPLE], run.v[SAMPLE]
     phi, gamma = native.compiled.phi(t, q, run.p), native.compiled.gamma(t, q, v, run.p)
     phi_q = native.compiled.phi_q(t, q, run.p)
-    for k, row in enumerate(native.source.rows):
+    for k, row in enumerate(native.source.equations):
         lines = page.evaluate(LINES, f"row-{k + 1}")
         stored = [(file, text, value) for file, text, value in lines if STORES.match(text)]
         assert len(stored) > 10 and all(value for _, _, value in stored), row

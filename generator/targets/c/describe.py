@@ -13,13 +13,13 @@ from gudgeon.contract.kernel_source import (
     BodyInfo,
     Condition,
     DriveInfo,
+    EquationInfo,
     EventInfo,
     ExpressionInfo,
     JointInfo,
     KernelSource,
     PartInfo,
     PointInfo,
-    RowInfo,
     RuntimeParameter,
     SeriesInfo,
 )
@@ -33,7 +33,7 @@ from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, iterate_quantities
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.language.tree import Expr, iterate_names, to_json
-from gudgeon.language.undefined_parts import is_total_expression
+from gudgeon.language.undefined_parts import is_defined_everywhere
 from gudgeon.language.units import Dimension
 
 EMPTY_REDUCTION_LOG = ReductionLog()
@@ -50,16 +50,16 @@ def describe_scene(
     operations: Mapping[str, int] = MappingProxyType({}),
     tree_coordinates: tuple[str, ...] = (),
     closures: tuple[str, ...] = (),
-    motion_pivots: tuple[str, ...] = (),
+    integrated_pivots: tuple[str, ...] = (),
     formulation: str = "full",
     reduction_log: ReductionLog = EMPTY_REDUCTION_LOG,
-    lanes: str = "",
+    lane_file: str = "",
     driven_loops: DrivenLoops | None = None,
     has_complex_stages: bool = False,
 ) -> KernelSource:
     """Return the KernelSource of a scene: everything that the runtime must know of the model and of its emitted C.
 
-    Facts about the code (files, pivots, lanes, operations) are arguments. They stay empty while only the model is
+    Facts about the code (files, pivots, lane_file, operations) are arguments. They stay empty while only the model is
     known.
     """
     scene, mechanism = model.scene, model.scene.mechanism
@@ -75,17 +75,17 @@ def describe_scene(
         sha256=mechanism.sha256,
         files=files,
         main=main,
-        units=units,
-        stages=has_complex_stages,
+        compilation_units=units,
+        has_stage_matrices=has_complex_stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_describe_points(model, parameter_index, body_index),
-        rows=tuple(map(_describe_constraint, model.rows)),
+        equations=tuple(map(_describe_constraint, model.rows)),
         joints=_describe_joints(model, body_index, row_index),
         drives=tuple(DriveInfo(name, row_index.get(name, -1), unit_of[name]) for name in mechanism.drives),
         clearances=_describe_clearances(model, parameter_index, body_index),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in list_force_element_series(model).items()),
-        start_rows=tuple(map(_describe_constraint, model.all_rows)),
+        start_equations=tuple(map(_describe_constraint, model.all_rows)),
         start_guess=tuple(start_values.guess),
         start_set=tuple(start_values.set),
         start_rates=tuple(start_values.rates),
@@ -94,7 +94,7 @@ def describe_scene(
         start_pivots=start_pivots,
         indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if has_jumping_rate(drive)),
-        slots=tuple(_describe_parameters(model)),
+        parameters=tuple(_describe_parameters(model)),
         derived=tuple(symbol.name.removesuffix("_") for symbol in model.parameter_table.derived),
         conditions=_select_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
@@ -102,30 +102,30 @@ def describe_scene(
         operations=dict(operations),
         notes=write_scene_notes(model),
         gravity=any(c != 0 for c in model.gravity),
-        tree=tree_coordinates,
+        tree_coordinates=tree_coordinates,
         closures=closures,
-        motion_pivots=motion_pivots,
+        integrated_pivots=integrated_pivots,
         formulation=formulation,
-        chain=driven_loops.names if driven_loops else (),
-        chain_rows=tuple(row.name for row in driven_loops.rows) if driven_loops else (),
+        driven_loop_coordinates=driven_loops.names if driven_loops else (),
+        driven_loop_equations=tuple(row.name for row in driven_loops.rows) if driven_loops else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_find_file_lines(mechanism),
-        massless=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
+        massless_bodies=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
-        start_apart=tuple(model.all_rows[k].name for k, _, _ in find_eccentricity_rows(model)),
+        eccentricity_equations=tuple(model.all_rows[k].name for k, _, _ in find_eccentricity_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)),
-        written=tuple(_describe_file_expressions(model)),
-        expressions=tuple(
+        file_expressions=tuple(_describe_file_expressions(model)),
+        named_expressions=tuple(
             _describe_file_expression(expression, expression.source_tree)
             for expression in mechanism.expressions.values()
         ),
-        simulate_written=tuple(_describe_settings(model)),
-        states=_name_internal_states(model),
-        story=reduction_log,
-        lanes=lanes,
+        simulate_expressions=tuple(_describe_settings(model)),
+        internal_states=_name_internal_states(model),
+        reduction_log=reduction_log,
+        lane_file=lane_file,
         parts=tuple(_describe_connections(mechanism)),
-        rigid=model.rigid,
+        rigid_joints=model.rigid,
         contours=tuple(_describe_contours(model)),
     )
 
@@ -139,7 +139,7 @@ def _describe_parameters(model: Model) -> Iterator[RuntimeParameter]:
         exponents = _get_unit_exponents(entry.dimension)
         expression = (
             ""
-            if entry.expression is None or is_total_expression(entry.expression)
+            if entry.expression is None or is_defined_everywhere(entry.expression)
             else json.dumps(to_json(entry.expression))
         )
         yield RuntimeParameter(
@@ -269,9 +269,9 @@ def _list_parameter_symbols(model: Model) -> list[sp.Symbol]:
     return [entry.symbol for entry in model.parameter_table.entries.values()] + list(model.parameter_table.derived)
 
 
-def _describe_constraint(row: Row) -> RowInfo:
+def _describe_constraint(row: Row) -> EquationInfo:
     """Return name, owner, kind and unit of a constraint equation."""
-    return RowInfo(row.name, row.owner, row.kind, row.unit)
+    return EquationInfo(row.name, row.owner, row.kind, row.unit)
 
 
 def _find_parameter_index(parameter_index: Mapping[sp.Symbol, int], value: sp.Expr) -> tuple[int, int]:

@@ -68,7 +68,7 @@ def emit_scene(program: Program, on_part_printed: PartCallback | None = None) ->
         }
     files[readme.NAME] = readme.print_readme(program, files)
     described = describe_program(program, files, () if CURVES in files else tuple(parts))
-    return replace(described, taylor=taylor.FILE if series else "", taylor_below=program.taylor_below)
+    return replace(described, taylor_file=taylor.FILE if series else "", max_taylor_tolerance=program.taylor_below)
 
 
 def describe_program(
@@ -88,7 +88,7 @@ def describe_program(
         units=compilation_units,
         pivots=program.kkt.pivots,
         start_pivots=kinematics.pivots if kinematics else (),
-        motion_pivots=integrated.pivots,
+        integrated_pivots=integrated.pivots,
         operations=_count_function_operations(program),
         tree_coordinates=tree.system.unknowns if tree else (),
         driven_loops=integrated.driven_loops,
@@ -101,7 +101,7 @@ def describe_program(
             integrated.system,
             kinematics.groups if kinematics else (),
         ),
-        lanes=lanes_code.MAIN if program.has_lanes else "",
+        lane_file=lanes_code.MAIN if program.has_lanes else "",
         has_complex_stages=program.has_complex_stages,
     )
 

@@ -45,7 +45,7 @@ def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[B
         ),
         *make_tables(make_row("coordinates", "rows", "step"), step_rows, (2,)),
         *make_tables(make_row("", "result"), outcome_rows, (1,)),
-        *draw_tree(source.story, joints),
+        *draw_tree(source.reduction_log, joints),
     ]
 
 
@@ -54,12 +54,12 @@ def _compare_formulations(functions: Functions) -> list[Block]:
 
     "none" stands for a formulation without the quantity.
     """
-    source, log = functions.source, functions.source.story
+    source, log = functions.source, functions.source.reduction_log
     counts = source.operations
     reduced_function = "compute_body_motion" if "compute_body_motion" in counts else "reduced_dynamics"
     rows = [
-        ("coordinates", len(source.coordinates), len(source.tree)),
-        ("constraint equations", len(source.rows), len(source.closures)),
+        ("coordinates", len(source.coordinates), len(source.tree_coordinates)),
+        ("constraint equations", len(source.equations), len(source.closures)),
         *_compare_matrices(log.before, log.after),
         ("operations of a right-hand side", counts["dynamics"], counts.get(reduced_function)),
     ]

@@ -81,7 +81,7 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
             and all(_is_well_conditioned(values[name], neighbour[name]) for name in values if name != "phi")
         ):
             approach_speeds, modes, internal_state = discrete_states
-            flat_states = [*approach_speeds, *modes, *[internal_state] * len(source.states)]
+            flat_states = [*approach_speeds, *modes, *[internal_state] * len(source.internal_states)]
             states.append(
                 {
                     "t": t,
@@ -104,7 +104,7 @@ def _compute_given_parameters(numpy_model: NumPyModel, linkage: NumPyLinkage) ->
     They test how defaults depend on specified parameters. Values have seven digits; None stands for one that is not
     finite.
     """
-    entries, parameters = linkage.source.slots, []
+    entries, parameters = linkage.source.parameters, []
     for first in range(2):
         with np.errstate(all="ignore"):
             p = numpy_model._compute_parameters(

@@ -114,8 +114,8 @@ class Contacts:
     def close_initial_contacts(self, t: float, y: Array, compute_onset_speeds: Callable[[], Array]) -> None:
         """Close open contacts with δ ≥ 0 at the start y, and let contacts that are closed already begin at t (s).
 
-        `compute_onset_speeds` returns the approach speeds δ̇⁻ (n_memory,) of the former; it is called only if there are
-        any.
+        `compute_onset_speeds` returns the approach speeds δ̇⁻ (n_discrete_states,) of the former; it is called only if
+        there are any.
         """
         now = self.evaluate_quantities(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
@@ -140,7 +140,10 @@ class Contacts:
                 self._close_contact(int(k), t, float(now.deltadot[0, k]))
 
     def _close_contact(self, k: int, t: float, deltadot: float) -> None:
-        """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s) or the velocity floor."""
+        """Close the contact of joint k at t (s), count the onset, and begin its compression.
+
+        The approach speed is `deltadot` (m/s), at least the velocity floor.
+        """
         self.discrete_states[k] = max(deltadot, self.floor)
         self.compressing[k] = True
         self.onsets += 1
@@ -272,5 +275,6 @@ class Contacts:
 
 def _find_velocity_floor(compiled: CompiledModel, p: Array) -> float:
     """Return the smallest approach speed δ̇⁻ (m/s) that an onset stores: the smallest `velocity_floor` of the scene."""
-    slots = enumerate(compiled.source.slots)
-    return min((float(p[k]) for k, parameter in slots if parameter.address.endswith(".velocity_floor")), default=0.0)
+    parameters = enumerate(compiled.source.parameters)
+    floors = (float(p[k]) for k, parameter in parameters if parameter.address.endswith(".velocity_floor"))
+    return min(floors, default=0.0)

@@ -141,7 +141,7 @@ class _Driver:
         self._store_sample(self.t, self.y)
 
     def _compute_approach_speeds(self) -> Array:
-        """Return the approach speeds δ̇⁻ (n_memory,) of contacts that are closed at the start.
+        """Return the approach speeds δ̇⁻ (n_discrete_states,) of contacts that are closed at the start.
 
         They come from a run in C to the start, and are not cross-checked.
         """

@@ -33,10 +33,10 @@ class Equations:
         self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 
     def compute_rates(self, t: float, y: Array) -> Array:
-        """Return ẏ (2n + 3,), and count the call; NaN where the equations cannot be solved, so that a smaller step is
-        tried.
+        """Return ẏ (2n + 3,); NaN where the equations cannot be solved, so that a smaller step is tried.
 
-        The error is stored in `failure`. KeyboardInterrupt is raised where the solver passes exceptions on.
+        Their error is stored in `failure`. The call is counted, and cancellation polled before it. KeyboardInterrupt is
+        raised where the solver passes exceptions on.
         """
         self.calls += 1
         if self.poll_cancellation:

@@ -105,14 +105,15 @@ def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
 def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
     """Return the loads of the file's force and torque elements at t = 0, by name, for the state q, v (n,).
 
-    p: values of the parameters, in the order of `source.slots`. A force has its components in ground axes (N), also if
-    the file gives them in the axes of a body; a torque has its value and 0 (N·m). Used for drawings without a run.
+    p: values of the parameters, in the order of `source.parameters`. A force has its components in ground axes (N),
+    also if the file gives them in the axes of a body; a torque has its value and 0 (N·m). Used for drawings without a
+    run.
     """
     from gudgeon.language.tree import evaluate, from_json
     from gudgeon.model.file_expressions import make_value_function
 
-    expressions = {entry.address: entry.tree for entry in source.written}
-    parameters = {parameter.address: float(x) for parameter, x in zip(source.slots, p, strict=False)}
+    expressions = {entry.address: entry.tree for entry in source.file_expressions}
+    parameters = {parameter.address: float(x) for parameter, x in zip(source.parameters, p, strict=False)}
     get_value = make_value_function(source, p, 0.0, q, v)
 
     def evaluate_address(address: str) -> float:

@@ -113,7 +113,7 @@ def build_batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.D
         else {}
     )
     units = {"t": "s"} | {name: series.unit for name, series in get_catalogue(batch.source).items()}
-    units |= {parameter.address: parameter.unit for parameter in batch.source.slots}
+    units |= {parameter.address: parameter.unit for parameter in batch.source.parameters}
     table: pandas.DataFrame = pandas_module.DataFrame(columns)
     table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _get_origin_attributes(batch)
     return table
@@ -224,7 +224,7 @@ def write_batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[
     """
     all_series, parameters = (
         get_catalogue(batch.source),
-        {parameter.address: parameter for parameter in batch.source.slots},
+        {parameter.address: parameter for parameter in batch.source.parameters},
     )
     names_of_series = _select_batch_series(batch, names)
     descriptions = [

@@ -134,18 +134,17 @@ def build_record_variables(table: Array, columns: dict[str, tuple[str, str]], na
 
 def _iterate_parameter_variables(run: Result) -> Iterator[Variable]:
     """Yield the columns of the table of run-time parameters: address, value, unit, given value, name of a choice."""
-    slots = run.source.slots
-    yield Variable(
-        "address", _convert_to_text_array([slot.address for slot in slots]), "", "address in the mechanism's file"
-    )
-    yield Variable("value", run.p[: len(slots)], "", "value in this run, SI")
-    yield Variable("unit", _convert_to_text_array([slot.unit for slot in slots]), "", "of the value")
+    parameters = run.source.parameters
+    addresses = [parameter.address for parameter in parameters]
+    yield Variable("address", _convert_to_text_array(addresses), "", "address in the mechanism's file")
+    yield Variable("value", run.p[: len(parameters)], "", "value in this run, SI")
+    yield Variable("unit", _convert_to_text_array([parameter.unit for parameter in parameters]), "", "of the value")
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
-    if any(slot.words for slot in slots):
+    if any(parameter.words for parameter in parameters):
         choice_names = [
-            str(format_parameter(slot, float(value))) if slot.words else ""
-            for slot, value in zip(slots, run.p, strict=False)
+            str(format_parameter(parameter, float(value))) if parameter.words else ""
+            for parameter, value in zip(parameters, run.p, strict=False)
         ]
         yield Variable("name", _convert_to_text_array(choice_names), "", "name of the choice if the value is its index")
 
@@ -305,7 +304,7 @@ def check_times(t: Array) -> None:
 def _check_given_values(source: KernelSource, p: Array, given_values: Array, is_given: Array) -> None:
     """Raise ValueError unless overridden values equal the values of the run, and flags are 0 or 1."""
     for parameter, value, overriding_value, was_overridden in zip(
-        source.slots, p.tolist(), given_values.tolist(), is_given.tolist(), strict=False
+        source.parameters, p.tolist(), given_values.tolist(), is_given.tolist(), strict=False
     ):
         if was_overridden not in (0, 1) or was_overridden and not overriding_value == value:
             raise ValueError(f"{parameter.address} is {value!r}, but was given as {overriding_value!r}")
@@ -328,9 +327,9 @@ def _check_names_and_units(source: KernelSource) -> None:
     """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
     parts: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
     parts += source.points
-    choices = [choice for slot in source.slots for choice in slot.words]
-    units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
-    names = [part.name for part in parts] + [slot.address for slot in source.slots] + [*source.outputs]
+    choices = [choice for parameter in source.parameters for choice in parameter.words]
+    units = [parameter.unit for parameter in source.parameters] + [series.unit for series in source.series]
+    names = [part.name for part in parts] + [parameter.address for parameter in source.parameters] + [*source.outputs]
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is not a valid name")
@@ -357,7 +356,7 @@ def _read_series(file: File, name: str, n_samples: int) -> Array:
 
 def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
     """Return p with derived parameters, given and is_given. Raises ValueError if a given value differs from p."""
-    n_parameters, n_derived = len(source.slots), len(source.derived)
+    n_parameters, n_derived = len(source.parameters), len(source.derived)
     if file.is_old:
         p = file.read_numbers("parameters.prepared", n_parameters + n_derived)
         given = file.read_numbers("parameters.given", n_parameters)
@@ -449,7 +448,7 @@ def _read_columns(stored_series: Mapping[str, Array], names: list[str], n_sample
 
 def _read_works(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> Array:
     """Return the works of drives, forces and joints with play, (N, 3); NaN for a scene without masses."""
-    if source.massless:
+    if source.massless_bodies:
         return np.full((n_samples, 3), np.nan)
     return _read_columns(stored_series, ["work.drives", "work.forces", "work.clearances"], n_samples)
 
@@ -457,7 +456,7 @@ def _read_works(source: KernelSource, stored_series: Mapping[str, Array], n_samp
 def _list_discrete_state_series(source: KernelSource) -> list[str]:
     """Return the names of the series of the discrete states, in the order of Result.memory; "" for unnamed ones."""
     approach_speeds = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
-    return [*approach_speeds, *(f"{friction}.mode" for friction in source.frictions), *source.states]
+    return [*approach_speeds, *(f"{friction}.mode" for friction in source.frictions), *source.internal_states]
 
 
 def read_states_at_events(file: File, run: Result) -> Result:

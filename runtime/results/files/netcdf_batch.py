@@ -72,7 +72,7 @@ def build_batch_tables(batch: Batch) -> Iterator[Table]:
         tables_by_run += build_stored_series_tables(batch)
         yield build_long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
     yield Table(RUNS, NUMBER, tuple(_iterate_run_variables(batch, runs)), {})
-    units = {parameter.address: parameter.unit for parameter in batch.source.slots}
+    units = {parameter.address: parameter.unit for parameter in batch.source.parameters}
     given_variables = (
         Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items()
     )
@@ -175,13 +175,13 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
 
     They are coordinates, velocities and works of a batch with states, the stored series, and the series `names`.
     """
-    dimensions, variables = ("run", "time"), dict[str, Any]()
+    dimensions, variables, source = ("run", "time"), dict[str, Any](), batch.source
     if batch.t.ndim == 2:
         variables["t"] = dimensions, batch.t, {"units": "s"}
     for k, name in enumerate(batch.source.coordinates if batch.states else ()):
         for order, (column, values) in enumerate(((name, batch.q), (find_rate_names(name)[0], batch.v))):
             variables[column] = dimensions, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
-    for k, name in enumerate(() if batch.source.massless or not batch.states else ("drives", "forces", "clearances")):
+    for k, name in enumerate(() if source.massless_bodies or not batch.states else ("drives", "forces", "clearances")):
         variables[f"work.{name}"] = dimensions, batch.work[:, :, k], {"units": "J"}
     names = [*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)]
     return variables | {
@@ -469,7 +469,9 @@ def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mappin
     if not file.has_entry(GIVEN):
         return {}
     given_parameters = {
-        parameter.address: parameter for parameter in source.slots if file.has_entry(f"{GIVEN}/{parameter.address}")
+        parameter.address: parameter
+        for parameter in source.parameters
+        if file.has_entry(f"{GIVEN}/{parameter.address}")
     }
     if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_parameters, NUMBER}):
         raise ValueError(f"{unknown_names[0][:64]!r} was given, but its scene has no such parameter")

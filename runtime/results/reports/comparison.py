@@ -67,23 +67,23 @@ def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[
             find_sample_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in common_names
         )
     forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
-    for joint in run.source.joints if not (run.source.clearances or run.source.massless) else ():
+    for joint in run.source.joints if not (run.source.clearances or run.source.massless_bodies) else ():
         reaction = find_sample_extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
-    drive_names = () if run.source.massless else list_drive_series(run.source)
+    drive_names = () if run.source.massless_bodies else list_drive_series(run.source)
     ideal_guides = [joint.name for joint in find_rigid_guides(run.source) if not run.source.clearances]
     guide_names = [
         f"{name}.{component}"
         for name in run.source.guides or ideal_guides
         for component in "FM"
-        if not run.source.massless
+        if not run.source.massless_bodies
     ]
     drives, guides = (
         tuple(find_sample_extreme(name, run.unit(name), run.t, run[name]) for name in names)
         for names in (drive_names, guide_names)
     )
-    remaining_rows = run.source.rows if run.source.formulation == "full" else run.source.closures
+    remaining_rows = run.source.equations if run.source.formulation == "full" else run.source.closures
     values = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
     return SceneReport(
         *values,

@@ -186,11 +186,11 @@ def _find_contact_name(run: Result, joint: ClearanceInfo) -> str:
     """
     source = run.source
     contact_names = [
-        address.split(".")[1] for parameter in source.slots if ".normal." in (address := parameter.address)
+        address.split(".")[1] for parameter in source.parameters if ".normal." in (address := parameter.address)
     ]
-    bearing_name = source.slots[joint.clearance].address.split(".")[1]
+    bearing_name = source.parameters[joint.clearance].address.split(".")[1]
     for name, p_index in joint.constants.items():
-        if (derived_index := p_index - len(source.slots)) >= 0:
+        if (derived_index := p_index - len(source.parameters)) >= 0:
             derived_names = {
                 contact: re.sub("_+", "_", f"{contact}_{bearing_name}_{name}") for contact in contact_names
             }
@@ -290,7 +290,7 @@ def _compute_energy_balance(run: Result) -> dict[str, float] | None:
     the run; "turned_over", the energy throughput. "not_told_apart" is the work of joints with play less the energies
     that contact, friction and film dissipate; it is present only if all joints have contact statistics.
     """
-    if run.source.massless:
+    if run.source.massless_bodies:
         return None
     diagnostics, names = run.diagnostics, ("drives", "forces", "clearances")
     terms = {name: float(run.work[-1, k] - run.work[0, k]) for k, name in enumerate(names)}
@@ -366,7 +366,7 @@ def _list_validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> l
         )
     warnings += find_exceeded_limits(run)
     energy = _compute_energy_balance(run) or {}
-    is_balance_complete = not run.source.rigid  # the energy loss of rigid impacts is in no other term
+    is_balance_complete = not run.source.rigid_joints  # the energy loss of rigid impacts is in no other term
     if is_balance_complete and abs(energy.get("not_told_apart", 0.0)) > UNASSIGNED_WORK_TOL * max(
         abs(energy.get("clearances", 0.0)), 1e-300
     ):
@@ -440,8 +440,8 @@ def _find_film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
 
 def _compute_length_ratio(run: Result, joint: ClearanceInfo) -> float:
     """Return length over diameter of the journal of a joint with a film."""
-    bearing_address = run.source.slots[joint.constants["R_i"]].address.rpartition(".")[0]
-    length = run.p[run.source.slot_index[f"{bearing_address}.length"]]
+    bearing_address = run.source.parameters[joint.constants["R_i"]].address.rpartition(".")[0]
+    length = run.p[run.source.parameter_indices[f"{bearing_address}.length"]]
     return float(length / (2.0 * run.p[joint.constants["R_j"]]))
 
 

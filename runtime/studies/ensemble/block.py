@@ -13,8 +13,8 @@ from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, GudgeonError, InputError, UnknownNameError
 from gudgeon.integrators.lanes import announce_later_runs
 from gudgeon.language.tree import Expr
-from gudgeon.model.default_step import evaluate_scene_end, evaluate_scene_number
-from gudgeon.model.parameter_sets import prepare_values_of_runs, read_given_parameters_of_runs
+from gudgeon.model.default_step import evaluate_scene_end_time, evaluate_scene_option
+from gudgeon.model.parameter_sets import compute_parameter_values_of_runs, read_given_parameters_of_runs
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.simulation import Simulation
@@ -177,7 +177,7 @@ class RunTable:
         Parameters that the scene lacks are left out. Empty for a job without deviations.
         """
         index_of_address, parameters = (
-            {parameter.address: k for k, parameter in enumerate(self.source.slots)},
+            {parameter.address: k for k, parameter in enumerate(self.source.parameters)},
             dict[str, Array](),
         )
         for name in dict.fromkeys((*job.relative, *job.absolute)):
@@ -207,7 +207,7 @@ class RunTable:
                 else:
                     self.invalid_runs.setdefault(i, f"{name} is {value}: expected a finite number")
         given, is_given = read_given_parameters_of_runs(self.source, rows)
-        p, _, errors = prepare_values_of_runs(self.compiled, given, is_given, False)
+        p, _, errors = compute_parameter_values_of_runs(self.compiled, given, is_given, False)
         return p, errors
 
     def _evaluate_windows(
@@ -253,7 +253,7 @@ class RunTable:
             end_times = evaluate_expression_for_runs(self.source, expr, self.p, {})
             self._mark_impossible_runs("t_end", end_times)
             return end_times
-        return self._evaluate_for_each_run(lambda p: evaluate_scene_end(self.source, p))
+        return self._evaluate_for_each_run(lambda p: evaluate_scene_end_time(self.source, p))
 
     def _evaluate_output_counts(self, expr: Expr | None, known_values: Mapping[str, Array]) -> Array:
         """Return the number of output intervals of each run, (n,), as floats with integer values.
@@ -263,7 +263,7 @@ class RunTable:
         """
         if expr is None:
             return self._evaluate_for_each_run(
-                lambda p: evaluate_scene_number(self.source, "output", p, DEFAULT_OUTPUT)
+                lambda p: evaluate_scene_option(self.source, "output", p, DEFAULT_OUTPUT)
             )
         counts = np.rint(evaluate_expression_for_runs(self.source, expr, self.p, known_values))
         self._mark_impossible_runs("output", counts)

@@ -466,7 +466,7 @@ def _count_components(source: KernelSource) -> dict[str, int]:
         "joints": len(source.joints) + len(source.clearances),
         "drives": len(source.drives),
         "freedoms": source.degrees_of_freedom,
-        "rows": len(source.rows),
+        "rows": len(source.equations),
         "coordinates": len(source.coordinates),
         "play": len(source.clearances),
     }

@@ -33,7 +33,7 @@ def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
 
     "c" is short for "parameters.c". Of a group (PARAMETER_GROUPS) it is the first member that the scene has.
     """
-    by_address = {parameter.address: parameter for parameter in source.slots}
+    by_address = {parameter.address: parameter for parameter in source.parameters}
     called = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
     return next((by_address[address] for address in called if address in by_address), None)
 
@@ -240,7 +240,7 @@ def evaluate_expression_for_runs(source: KernelSource, expr: Expr, p: Array, ext
 
     extra_values: values of further names, scalar or (n,). A value is NaN or infinite where the expression is undefined.
     """
-    index_of_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
+    index_of_address = {parameter.address: k for k, parameter in enumerate(source.parameters)}
 
     def get_values(path: str) -> Any:
         """Return the values (n,) of a name in the expression, or a scalar."""

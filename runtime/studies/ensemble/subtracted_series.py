@@ -17,7 +17,7 @@ from gudgeon.errors import GudgeonError, InputError
 from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.tree import from_json, iterate_names
-from gudgeon.model.parameter_sets import prepare_values_of_runs, read_given_parameters_of_runs
+from gudgeon.model.parameter_sets import compute_parameter_values_of_runs, read_given_parameters_of_runs
 from gudgeon.results.batch import Array, find_evaluation_parts
 from gudgeon.results.results import make_evaluated_samples
 from gudgeon.results.series import get_catalogue
@@ -71,7 +71,7 @@ def find_ineffective_parameters(source: KernelSource) -> Array:
     Such an entry is a named parameter that no expression of time, of the motion or of an output contains. Quantities
     that depend on it, such as lengths, are entries of p themselves, so their own flags are False.
     """
-    trees = [json.loads(expression.tree) for expression in source.written] + list(source.outputs.values())
+    trees = [json.loads(expression.tree) for expression in source.file_expressions] + list(source.outputs.values())
     used_addresses = {
         f"parameters.{name.path.removeprefix('parameters.')}"
         for tree in trees
@@ -79,7 +79,7 @@ def find_ineffective_parameters(source: KernelSource) -> Array:
     }
     is_unused = [
         parameter.address.startswith("parameters.") and parameter.address not in used_addresses
-        for parameter in source.slots
+        for parameter in source.parameters
     ]
     return np.array(is_unused + [False] * len(source.derived), dtype=bool)
 
@@ -207,7 +207,7 @@ def _build_run_inputs(simulation: Simulation, table: RunTable, runs: Array, time
     columns = {key: values[runs] for name, values in table.columns.items() if (key := find_parameter_key(source, name))}
     rows = [{name: to_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
     given, is_given = read_given_parameters_of_runs(source, rows)
-    p, _, _ = prepare_values_of_runs(simulation.compiled, given, is_given, False)
+    p, _, _ = compute_parameter_values_of_runs(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
     return RunInputs(columns, p, np.where(find_ineffective_parameters(source), 0.0, p), tuple(times), step)
 
