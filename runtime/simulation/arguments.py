@@ -229,7 +229,8 @@ def _check_duration(message_prefix: str, t0: float, end: float, min_roundings: i
 
 
 def find_required_variant(source: KernelSource, method: str, rtol: float | str | None, has_step: bool) -> str:
-    """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method.
+    """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method,
+    or if it cannot have the stages because the scene has no Jacobian.
 
     The variant is STAGES for methods with implicit stages, or the name of a Taylor method. "auto" needs the latter at
     tolerances at which it integrates by series, without a fixed step. Without a compiler, it uses the methods of the

@@ -1,4 +1,6 @@
-"""Build the Result of a finished run from samples and counts, with diagnostics and notes; quickly after Ctrl-C."""
+"""Build the Result of a finished run from samples and counts, with diagnostics and notes; after Ctrl-C without slow
+ones.
+"""
 
 from __future__ import annotations
 
@@ -299,7 +301,7 @@ def build_result(
         problem.poll_cancellation()
         if passes_audit(problem, x, times):
             values = {"compiled": compiled, "source": compiled.source, "given": given, "is_given": is_given}
-            values |= {"stored": {}, "start_row": None, "begun": problem.resumed_state}
+            values |= {"stored": {}, "start_row": None, "given_start": problem.resumed_state}
             result = make_with_deferred_fields(Result, values, _PassingParts(problem, x, times))
             return result if problem.start_is_sample else split_off_start(result)
         poll = _make_poll_function(problem, x.interrupted, is_time_limited)
@@ -331,7 +333,7 @@ def build_result(
         "diagnostics": _build_diagnostics(problem, x, checked),
         "stored": {},
         "start_row": None,
-        "begun": problem.resumed_state,
+        "given_start": problem.resumed_state,
     }
     if checked and checked.evaluation:
         values["evaluation"] = checked.evaluation  # a cached property: not computed again

@@ -19,7 +19,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 from gudgeon.model.evaluation import FIELD_NAMES, find_rounding_distance
-from gudgeon.results.batch import depends_on_works, find_evaluation_parts
+from gudgeon.results.batch import depends_on_works, find_evaluation_fields
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import get_catalogue
@@ -67,7 +67,9 @@ class RunInterpolant:
         self.p, self.given, self.is_given = parameter_arrays  # as in a Result
         self.catalogue = get_catalogue(self.source)
         requested = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
-        self.parts = FIELD_NAMES if names is None else find_evaluation_parts(self.source, requested) | {"a"}
+        self.evaluation_fields = (
+            FIELD_NAMES if names is None else find_evaluation_fields(self.source, requested) | {"a"}
+        )
         self.needs_works = any(depends_on_works(self.source, name) for name in requested)
         self.is_kinematic = self.source.methods == (KINEMATIC,)
         self.has_films = any(joint.film for joint in self.source.clearances)
@@ -204,7 +206,7 @@ class RunInterpolant:
                     if is_solvable.all()
                     else (t[is_solvable], steps.q[is_solvable], steps.v[is_solvable], steps.memory[is_solvable])
                 )
-                evaluation = self.compiled.evaluate(*states, self.p, field_names=self.parts)
+                evaluation = self.compiled.evaluate(*states, self.p, field_names=self.evaluation_fields)
                 break
             except SolverError as error:
                 remaining = is_solvable & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))
@@ -212,7 +214,7 @@ class RunInterpolant:
         if is_solvable.all():
             return evaluation, is_solvable
         columns = {name: np.full((len(steps), *array.shape[1:]), np.nan) for name, array in vars(evaluation).items()}
-        for name in self.parts:
+        for name in self.evaluation_fields:
             columns[name][is_solvable] = getattr(evaluation, name)
         return Evaluation(**columns), is_solvable
 
@@ -235,7 +237,8 @@ class RunInterpolant:
     def _interpolate_motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
         """Return q and q̇ (T, n) at times t and fractions s (T, 1) between states k and k + 1.
 
-        They follow from the interpolating polynomials, or from the drives where the scene has no degrees of freedom.
+        They follow from the interpolating polynomial of q̇, whose integral is corrected linearly to meet state k + 1,
+        or from the drives where the scene has no degrees of freedom.
         """
         x = self.steps
         if self.is_kinematic:
@@ -326,11 +329,12 @@ def _differentiate_legendre(n: int) -> Any:
 def _compute_shortest_interval(steps: Steps) -> float:
     """Return the length (s) of the shortest interval in which differences of positions still determine speeds.
 
-    Lengths and angles are tested separately. Blocks at rest are not limited, though forces may vary there.
+    It is 40 ε max|q| / (MAX_SPEED_ERROR max|q̇|), the largest of x, y and angles; 0 at rest. Blocks at rest are not
+    limited, though forces may vary there.
     """
     shortest = 0.0
     for kind in (slice(0, None, 3), slice(1, None, 3), slice(2, None, 3)):  # x, y, angles of all bodies
-        q, v = (np.abs(part[:, kind][np.isfinite(part[:, kind])]).max(initial=0.0) for part in (steps.q, steps.v))
+        q, v = (np.abs(values[:, kind][np.isfinite(values[:, kind])]).max(initial=0.0) for values in (steps.q, steps.v))
         if v * float(steps.t[-1] - steps.t[0]) > MAX_MOTION_AT_REST * q:
             shortest = max(shortest, 40.0 * np.finfo(float).eps * float(q) / (MAX_SPEED_ERROR * float(v)))
     return shortest

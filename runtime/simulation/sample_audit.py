@@ -17,7 +17,7 @@ from gudgeon.simulation.audit import (
     LIMITS,
     MAX_CALLS_OF_SHORT_RUN,
     SAMPLE_POSITIONS,
-    list_checks_left_out,
+    list_inapplicable_checks,
     select_audit_samples,
 )
 
@@ -30,7 +30,7 @@ class ReusableSampleAudit:
 
     def __init__(self, run: ReusableRun, is_resumed: bool) -> None:
         self.run, self.is_resumed = run, is_resumed
-        left_out = list_checks_left_out(run.compiled.source, run.method)
+        left_out = list_inapplicable_checks(run.compiled.source, run.method)
         self._limits = np.array([np.inf if check in left_out else AUDIT_FAILS * x for check, x in LIMITS.items()])
         pointer, x = run.compiled.pointer, run.arrays
         self._errors = np.zeros((len(SAMPLE_POSITIONS), len(LIMITS)))

@@ -70,7 +70,7 @@ def check_samples(
             outputs.add_samples(samples)
     all_energy, all_slip = (parts[0] if len(parts) == 1 else np.concatenate(parts) for parts in (energy, slip))
     balance = compute_energy_balance(all_energy, x.work, poll)
-    notes = () if compiled.source.massless else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
+    notes = () if compiled.source.massless else _build_non_finite_energy_note(x.t, all_energy, x.work, balance[0])
     notes += () if compiled.source.massless else _build_coarse_step_note(problem, *balance)
     notes += outputs.build_notes()
     if compiled.source.frictions:
@@ -121,7 +121,7 @@ def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object
     residual_max = throughput = 0.0
     kinetic, potential = energy.T
     by_drives, by_forces, by_clearances = work.T
-    with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
+    with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_non_finite_energy_note`
         for first in range(0, len(energy), POLLED_SAMPLES):
             rows, following = slice(first, first + POLLED_SAMPLES), slice(first + 1, first + POLLED_SAMPLES + 1)
             change = (kinetic[rows] + potential[rows]) - (kinetic[0] + potential[0])
@@ -147,7 +147,7 @@ def _build_coarse_step_note(problem: Problem, residual: float, throughput: float
     )
 
 
-def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
+def _build_non_finite_energy_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
     """Return a note if the energy residual `residual` (J) is not finite, with the time of the first such sample; else
     ().
     """

@@ -38,7 +38,7 @@ from gudgeon.results.batch import (
     Batch,
     States,
     collect_given_values,
-    find_evaluation_parts,
+    find_evaluation_fields,
     make_failures,
 )
 from gudgeon.results.peaks import build_peak_records
@@ -120,7 +120,9 @@ def simulate_many(
     p, p_motion, failures = prepare_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
     failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
-    check_sample_memory(compiled, times.max_count, len(p), series, find_evaluation_parts(source, series or ()), workers)
+    check_sample_memory(
+        compiled, times.max_count, len(p), series, find_evaluation_fields(source, series or ()), workers
+    )
     steps = run_arguments.compute_steps(selected, p, times, failures)
     failures |= run_arguments.failures
     return _run_batch(simulation, starts, (p, p_motion, steps), times, failures, options)
@@ -276,9 +278,11 @@ class _Starts:
         `p`: parameter values (n_runs, …).
         """
         indices = range(len(p) if options.peaks else 0)
-        numbers = [(p[i], self.given[i], self.is_given[i]) for i in indices]
+        parameter_values = [(p[i], self.given[i], self.is_given[i]) for i in indices]
         arguments = (options.rtol, options.peaks, options.against)
-        return [None if i in failures else make_observer(self.compiled, numbers[i], *arguments) for i in indices]
+        return [
+            None if i in failures else make_observer(self.compiled, parameter_values[i], *arguments) for i in indices
+        ]
 
 
 @dataclass
@@ -332,7 +336,7 @@ class _Results:
             self.stored_series.store_finished_runs(runs, finished_runs)
 
     def _check_redundant_constraints(self, finished_runs: Sequence[int]) -> None:
-        """Record an error for each finished run with samples that violates a redundant constraint equation, if any."""
+        """Record an error for each finished run with samples that violates a redundant constraint equation."""
         runs = self.runs
         for i in finished_runs if list_redundant_equations(runs.compiled) else ():
             if runs.arrays["done"][i] and (
@@ -405,13 +409,13 @@ class _Results:
             notes_by_run[i] = (*notes_by_run.get(i, ()), *observation.notes)
         return notes_by_run
 
-    def evaluate_samples(self, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
-        """Return the samples of run i without diagnostics, for evaluating `parts` of its equations; None if it has no
-        samples.
+    def build_run_samples(self, i: int, field_names: frozenset[str]) -> EvaluatedSamples | None:
+        """Return the samples of run i without diagnostics, for evaluating the fields `field_names` of an Evaluation;
+        None if it has no samples.
 
         The start is left out if it was not requested as a sample. Batch evaluates series from it (ResultOf).
         """
-        samples = build_samples(self.runs, i, parts)
+        samples = build_samples(self.runs, i, field_names)
         return split_off_start(samples) if samples and self.runs.times.n_skipped[i] else samples
 
 

@@ -64,7 +64,7 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
         return plain(run)
 
     monkeypatch.setattr(EvaluatedSamples, "evaluation", property(noted))
-    first = batch.result.evaluate_samples(0, FIELD_NAMES)
+    first = batch.result.build_run_samples(0, FIELD_NAMES)
     stored = set() if first is None or first.accelerations is None else {"a"}  # by a method that Python drives
     for name in known:
         requested.clear()

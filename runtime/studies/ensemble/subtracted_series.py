@@ -18,7 +18,7 @@ from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.tree import from_json, iterate_names
 from gudgeon.model.parameter_sets import prepare_values_of_runs, read_given_parameters_of_runs
-from gudgeon.results.batch import Array, find_evaluation_parts
+from gudgeon.results.batch import Array, find_evaluation_fields
 from gudgeon.results.results import make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
@@ -223,7 +223,7 @@ def _compute_kinematic_series(
     source, compiled, parts = (
         simulation.source,
         simulation.compiled,
-        find_evaluation_parts(simulation.source, series_names),
+        find_evaluation_fields(simulation.source, series_names),
     )
     if source.degrees_of_freedom or not runs:
         return {}
