@@ -112,11 +112,13 @@ def _make_samples(
 def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
     """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
 
-    `energy` (N, 2): kinetic and potential; `work` (N, 3): works since the start. Both results are NaN without samples.
+    Throughput: the sum of |ΔW| of each work over the intervals between samples, plus the range of the kinetic energy.
+    `energy` (N, 2): kinetic and potential; `work` (N, 3): works of drives, force elements and joints with play since
+    the start. Both results are NaN without samples.
     An impact at the very start has done its work before the first sample. `poll` polls for cancellation between blocks;
     its exceptions are passed on.
     """
-    if not len(energy):  # the start has no accelerations
+    if not len(energy):  # the run failed at its start, which has no accelerations
         return math.nan, math.nan
     residual_max = throughput = 0.0
     kinetic, potential = energy.T

@@ -265,16 +265,15 @@ class WearObserver:
     def _distribute_loads(self, side: int, angle: Array, half_widths: Array | None, loads: Array) -> None:
         """Add the loads of each quadrature point to the cells of the arc that the contact sweeps on a surface.
 
-        `load` and `friction` of that surface are updated.
-
-        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: those of the contact in rad,
-        or None for contact at a point; `loads` (2, K·points).
+        `load` and `friction` of that surface are updated. `side`: 0 bearing, 1 journal; `angle` (K, points) in rad;
+        `half_widths`: those of the contact in rad, or None for contact at a point; `loads` (2, K·points): normal and
+        tangential force times slip, N·m.
         """
         ends = angle @ NODES_TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
-        worn = distribute_loads(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
-        self.load[side] += worn[0]
-        self.friction[side] += worn[1]
+        cell_loads = distribute_loads(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
+        self.load[side] += cell_loads[0]
+        self.friction[side] += cell_loads[1]
 
     def _interpolate_motion(self, k: Array, s: Array) -> tuple[Array, Array]:
         """Return q and q̇ (K, points, n) at fractions s (K, points, 1) of the intervals after states k (K,).

@@ -60,7 +60,7 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
     plain = EvaluatedSamples.evaluation.func  # type: ignore[attr-defined]
 
     def noted(run: EvaluatedSamples) -> object:
-        requested.append(run.parts)
+        requested.append(run.evaluation_fields)
         return plain(run)
 
     monkeypatch.setattr(EvaluatedSamples, "evaluation", property(noted))
@@ -69,8 +69,8 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
     for name in known:
         requested.clear()
         found = batch[name]
-        assert set(requested) <= {known[name].parts} and known[name].parts <= FIELD_NAMES, name
-        assert bool(requested) == bool(known[name].parts - stored), name
+        assert set(requested) <= {known[name].evaluation_fields} and known[name].parts <= FIELD_NAMES, name
+        assert bool(requested) == bool(known[name].evaluation_fields - stored), name
         assert found.shape == (len(batch), batch.t.shape[-1])
 
 

@@ -218,15 +218,15 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
     The depth (N/m) is the maximum over the bearing's cells of ∫F|v_t|dt per area; the arc (rad) is the shortest one
     with 90 % of the wear.
     """
-    out = np.full(len(batch), np.nan)
+    values = np.full(len(batch), np.nan)
     for i, loads_of_run in enumerate(batch.rubbed):
-        for rubbed in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
-            out[i] = (
-                compute_shortest_arc(rubbed.load[0])
+        for sliding_loads in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
+            values[i] = (
+                compute_shortest_arc(sliding_loads.load[0])
                 if measure.statistic == "wear_arc"
-                else rubbed.compute_depth(0).max()
+                else sliding_loads.compute_depth(0).max()
             )
-    return out
+    return values
 
 
 def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:

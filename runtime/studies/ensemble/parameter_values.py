@@ -34,8 +34,8 @@ def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
     "c" is short for "parameters.c". Of a group (PARAMETER_GROUPS) it is the first member that the scene has.
     """
     by_address = {parameter.address: parameter for parameter in source.slots}
-    called = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
-    return next((by_address[address] for address in called if address in by_address), None)
+    candidate_addresses = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
+    return next((by_address[address] for address in candidate_addresses if address in by_address), None)
 
 
 def find_parameter_key(source: KernelSource, name: str) -> str:
