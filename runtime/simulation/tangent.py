@@ -214,7 +214,7 @@ class Panel:
     def nodes(self) -> list[tuple[float, float]]:
         """Return the times t (s) of the three nodes of the panel, each with dt/ds times the width (s).
 
-        The map t(s), that of `ends`, has zero slope at both ends, where contacts begin or end.
+        The map t(s) = a + (b − a)(3 s² − 2 s³) has zero slope at both ends, where contacts begin or end.
         """
         s = self.s + self.width * NODES
         times, rates = self.a + (self.b - self.a) * s * s * (3.0 - 2.0 * s), 6.0 * (self.b - self.a) * s * (1.0 - s)
@@ -222,10 +222,7 @@ class Panel:
 
     @property
     def ends(self) -> list[float]:
-        """Return the times (s) of both ends of the panel, moved slightly inside the times of the contacts.
-
-        t(s) = a + (b − a)(3 s² − 2 s³), with s from 0 to 1 between the contacts at a and b.
-        """
+        """Return the times (s) of both ends of the panel, mapped as `nodes`, slightly inside the contacts' times."""
         s, length = np.array([self.s, self.s + self.width]), self.b - self.a
         return np.clip(
             self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length, self.b - INSIDE * length
@@ -402,10 +399,7 @@ class Tangent:
         return np.concatenate([q, q / crossing, np.full(self.flow.n_joints, largest / crossing)])
 
     def _compute_propagator_difference(self, P: Array, Q: Array) -> float:
-        """Return |P − Q|/|P| of two propagators in scaled variables (Frobenius norms).
-
-        The last row and column, which are those of inhomogeneous terms, are left out.
-        """
+        """Return |P − Q|/|P| (Frobenius, scaled variables) of two propagators without their last row and column."""
         w = self._compute_variable_scales()
         P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
         return float(np.linalg.norm(P - Q) / np.linalg.norm(P))

@@ -368,10 +368,8 @@ def _make_acceleration_question(subject: Subject) -> Question:
             f" at {exercise.t:g} s, by hand or by computer, and solve them: how large is the {quantity} {name}?",
         ),
     ]
-    phi_q, gamma = (
-        compiled.phi_q(exercise.t, exercise.q, exercise.p),
-        compiled.gamma(exercise.t, exercise.q, exercise.v, exercise.p),
-    )
+    phi_q = compiled.phi_q(exercise.t, exercise.q, exercise.p)
+    gamma = compiled.gamma(exercise.t, exercise.q, exercise.v, exercise.p)
     symbol_names = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown_rows = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale = float(np.abs(gamma).max())
@@ -426,18 +424,16 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
     F = [float(exercise.run[f"{name}.{component}"][-1]) for component in ("Fx", "Fy", "F")]
-    requested: list[Block] = []
+    blocks: list[Block] = []
     if subject.model.degrees_of_freedom:
-        requested.append(
-            make_paragraph(f"The accelerations at {exercise.t:g} s, of centres of mass and of angles, are")
-        )
-        requested += _tabulate_by_body(subject, exercise.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        blocks += [make_paragraph(f"The accelerations at {exercise.t:g} s, of centres of mass and of angles, are")]
+        blocks += _tabulate_by_body(subject, exercise.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        requested.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
+        blocks.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
     if source.clearances or source.frictions:
-        requested.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
-        requested += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
-    requested.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
+        blocks.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
+        blocks += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
+    blocks.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_make_balance_blocks(subject, [k - 1 for k, _ in lambdas]),
@@ -457,9 +453,7 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
         for axis, x in zip("xy", F, strict=False)
     ]
     solved.append(subject.make_value_equation(make_symbol_name("F", name), F[2], "N", F[2]))
-    yield Question(
-        "The force in a joint", tuple(requested), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True))
-    )
+    yield Question("The force in a joint", tuple(blocks), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
 def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
@@ -487,11 +481,10 @@ def _get_multiplier(subject: Subject, row: str) -> float:
 
 def _compute_applied_forces(subject: Subject) -> Array:
     """Return the generalized applied forces g = M q̈ + Φ_qᵀ λ (n,) at the last sample of the run, in N and N·m."""
-    exercise, compiled = subject.exercise, subject.simulation.compiled
-    run, rows = exercise.run, [row.name for row in subject.model.rows]
-    multipliers = np.array([_get_multiplier(subject, row) for row in rows])
-    constraint_forces = compiled.phi_q(run.t[-1], run.q[-1], exercise.p).T @ multipliers if rows else 0.0
-    return np.asarray(compiled.mass(exercise.p) * run.a[-1] + constraint_forces)
+    p, run, compiled = subject.exercise.p, subject.exercise.run, subject.simulation.compiled
+    multipliers = np.array([_get_multiplier(subject, row.name) for row in subject.model.rows])
+    constraint_forces = compiled.phi_q(run.t[-1], run.q[-1], p).T @ multipliers if len(multipliers) else 0.0
+    return np.asarray(compiled.mass(p) * run.a[-1] + constraint_forces)
 
 
 def _tabulate_by_body(subject: Subject, values: Array, *header: str) -> list[Block]:

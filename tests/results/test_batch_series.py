@@ -69,7 +69,7 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
     for name in known:
         requested.clear()
         found = batch[name]
-        assert set(requested) <= {known[name].evaluation_fields} and known[name].parts <= FIELD_NAMES, name
+        assert set(requested) <= {known[name].evaluation_fields} and known[name].evaluation_fields <= FIELD_NAMES, name
         assert bool(requested) == bool(known[name].evaluation_fields - stored), name
         assert found.shape == (len(batch), batch.t.shape[-1])
 

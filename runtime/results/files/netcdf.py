@@ -90,14 +90,8 @@ def _iterate_series_variables(run: Result) -> Iterator[Variable]:
 
 def _iterate_start_variables(run: Result) -> Iterator[Variable]:
     """Yield the given `start` of a run as one column: t, q, v, contact codes, discrete states; nothing without one."""
-    if run.given_start is not None:
-        fields = (
-            [run.given_start.t],
-            run.given_start.q,
-            run.given_start.v,
-            run.given_start.state,
-            run.given_start.memory,
-        )
+    if (start := run.given_start) is not None:
+        fields = ([start.t], start.q, start.v, start.state, start.memory)
         values = np.concatenate([np.asarray(values_of_field, dtype=np.float64) for values_of_field in fields])
         yield Variable("value", values, "", "time, coordinates, velocities, contact codes, memory, SI")
 
@@ -270,7 +264,7 @@ def read_result(file: File, source: KernelSource, series_names: tuple[str, ...])
     """Return the checked result of an open file. Raises ValueError, TypeError or KeyError for an invalid file."""
     diagnostics = Diagnostics.from_json(file.read_text_attribute("diagnostics"))
     check_type(diagnostics, Diagnostics, "diagnostics")
-    t = file.read_numeric_array("time")
+    t = file.read_array("time")
     if not len(t):
         raise ValueError("it has no samples")
     check_times(t)
@@ -356,7 +350,7 @@ def _read_series(file: File, name: str, n_samples: int) -> Array:
     )
     # the plain name, for an output named like a group that older versions did not write
     stored_name = stored_name if file.has_entry(stored_name) else name
-    values = file.read_numeric_array(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
+    values = file.read_array(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
@@ -365,17 +359,17 @@ def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Ar
     """Return p with derived parameters, given and is_given. Raises ValueError if a given value differs from p."""
     n_parameters, n_derived = len(source.slots), len(source.derived)
     if file.is_old:
-        p = file.read_numeric_array("parameters.prepared", n_parameters + n_derived)
-        given = file.read_numeric_array("parameters.given", n_parameters)
-        is_given = file.read_numeric_array("parameters.is_given", n_parameters, "i1")
+        p = file.read_array("parameters.prepared", n_parameters + n_derived)
+        given = file.read_array("parameters.given", n_parameters)
+        is_given = file.read_array("parameters.is_given", n_parameters, "i1")
         _check_given_values(source, p, given, is_given)
         return p, given, is_given.astype(bool)
     values, given = (
-        file.read_numeric_array(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0)
+        file.read_array(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0)
         for name in ("value", "given")
     )
-    is_given = file.read_numeric_array("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
-    derived_values = file.read_numeric_array(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
+    is_given = file.read_array("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
+    derived_values = file.read_array(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
     _check_given_values(source, values, given, is_given)
     return np.concatenate([values, derived_values]), given, is_given.astype(bool)
 
@@ -396,7 +390,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
     if not file.has_entry(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
     if file.is_old:
-        owner_indices = file.read_numeric_array(f"{kind}.{owner_column}", None, "i4")
+        owner_indices = file.read_array(f"{kind}.{owner_column}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
         owner_indices = np.array([index[name] for name in file.read_texts(f"{kind}s/{owner_column}")], "i4")
@@ -405,9 +399,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
     table = np.empty(len(owner_indices), dtype)
     table[owner_column] = owner_indices
     for name in other_columns:
-        table[name] = file.read_numeric_array(
-            f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices)
-        )
+        table[name] = file.read_array(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices))
     return table
 
 
@@ -415,9 +407,9 @@ def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
     """Return the envelope over the steps, TRACE_COLUMNS of each joint with play; None without one or in older files."""
     if not file.has_entry(TRACE):
         return None
-    t = file.read_numeric_array(f"{TRACE}/t")
+    t = file.read_array(f"{TRACE}/t")
     names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
-    columns = [[file.read_numeric_array(name, len(t)) for name in joint_columns] for joint_columns in names]
+    columns = [[file.read_array(name, len(t)) for name in joint_columns] for joint_columns in names]
     return Envelope(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
 
@@ -472,7 +464,7 @@ def read_states_at_events(file: File, run: Result) -> Result:
     """Return the result whose samples are the start of the run and then its events, read from the file."""
     stored, count, start_row = {}, len(run.events), run.start_row or run
     for name in run.stored:
-        values = file.read_numeric_array(
+        values = file.read_array(
             f"{STATES}/{name_event_column(name)}", count, "i1" if name.endswith(".state") else "f8"
         )
         stored[name] = np.concatenate([start_row.stored[name][:1], values])
@@ -483,9 +475,9 @@ def read_states_at_events(file: File, run: Result) -> Result:
 
 def read_start_row(file: File, run: Result) -> Result:
     """Return the start of a run whose samples begin later: a result of one sample, read from the file."""
-    t = file.read_numeric_array(f"{START}/time", 1)
+    t = file.read_array(f"{START}/time", 1)
     datasets = {name: (f"{START}/{name_variable(name)}", values.dtype.str) for name, values in run.stored.items()}
-    stored = {name: file.read_numeric_array(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
+    stored = {name: file.read_array(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
     for values in stored.values():
         values.flags.writeable = False
     return replace(run, t=t, **rebuild_samples(run.source, stored, 1), trace=None, stored=stored)
@@ -494,9 +486,7 @@ def read_start_row(file: File, run: Result) -> Result:
 def _read_given_start(file: File, final_state: State) -> State:
     """Return the state that a run was given as `start`; identity and parameters are those of its final state."""
     offsets = np.cumsum([1, len(final_state.q), len(final_state.v), len(final_state.state), len(final_state.memory)])
-    t, *motion, state, memory = np.split(
-        file.read_numeric_array(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1]
-    )
+    t, *motion, state, memory = np.split(file.read_array(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
     return replace(final_state, t=float(t[0]), q=motion[0], v=motion[1], state=state.astype(np.int8), memory=memory)
 
 
