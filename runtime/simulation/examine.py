@@ -391,7 +391,12 @@ def _estimate_errors(
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
     is_compared = run.t <= until
-    names = [name for watched in choose_default_series(run) for name in (watched, *find_rate_names(watched)) if name]
+    names = [
+        name
+        for default_name in choose_default_series(run)
+        for name in (default_name, *find_rate_names(default_name))
+        if name
+    ]
     results = []
     for name in dict.fromkeys([*names, *(f"{joint.name}.F" for joint in run.source.clearances)]):
         differences = np.abs(accurate_run[name] - run[name])[is_compared]

@@ -348,18 +348,18 @@ class SectionReturns:
         p = run.p if not hasattr(run, "all") else run.all.p
         angle = find_angles(source)
         scale = np.where(angle, 1.0, self.size)
-        parts = [
+        columns = [
             run.q[:, ~angle] / self.size,
             np.cos(run.q[:, angle]),
             np.sin(run.q[:, angle]),
             run.v / scale * (self.size / self.speed),
         ]
-        parts += [
+        columns += [
             (run[f"{joint.name}.{axis}"] / p[joint.clearance])[:, None]
             for joint in source.clearances
             for axis in ("ex", "ey")
         ]
-        return np.concatenate(parts, axis=1)
+        return np.concatenate(columns, axis=1)
 
 
 def _parse_section(run: Result, section: str | float | None) -> tuple[str, float]:

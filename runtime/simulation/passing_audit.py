@@ -43,13 +43,13 @@ def passes_audit(problem: Problem, trajectory: Trajectory, times: Array) -> bool
     The result is False for audit="full", for a contact or film force at any sample, and for values that are not finite.
     Without an audit, it is True if all samples can be evaluated.
     """
-    x, compiled, n_samples, block = trajectory, problem.compiled, len(times), trajectory.block
+    compiled, n_samples, block = problem.compiled, len(times), trajectory.block
     if not (
         block is not None
         and 0 < n_samples <= MAX_SAMPLES
-        and x.stopped is None
+        and trajectory.stopped is None
         and problem.progress is None
-        and not x.interrupted
+        and not trajectory.interrupted
         and compiled.has_all_forces
     ):
         return False
@@ -77,8 +77,8 @@ def passes_audit(problem: Problem, trajectory: Trajectory, times: Array) -> bool
     )
     if not (passes and is_audited and n_samples >= MIN_SAMPLES):
         return bool(passes)
-    balance, largest = compute_energy_balance(energies, x.work, lambda: None), float(np.abs(energies).max())
-    findings = check_energy_balance(compiled, problem, x, largest, balance, max(size[0], 1e-300))
+    balance, largest = compute_energy_balance(energies, trajectory.work, lambda: None), float(np.abs(energies).max())
+    findings = check_energy_balance(compiled, problem, trajectory, largest, balance, max(size[0], 1e-300))
     return not has_failed_finding(tuple(findings))
 
 

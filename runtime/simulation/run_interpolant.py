@@ -128,20 +128,20 @@ class RunInterpolant:
         through positions, velocities and accelerations. Its evaluation is cached for the block.
         """
         if self.inner_cache is None:
-            x, a, s = self.steps, self.run.a[1:], INNER_FRACTION
-            h, q = np.diff(x.t)[:, None], np.diff(x.q, axis=0)
-            r0, r1, c0, c1 = h * x.v[:-1], h * x.v[1:], h**2 * a[:-1], h**2 * a[1:]
+            steps, a, s = self.steps, self.run.a[1:], INNER_FRACTION
+            h, q = np.diff(steps.t)[:, None], np.diff(steps.q, axis=0)
+            r0, r1, c0, c1 = h * steps.v[:-1], h * steps.v[1:], h**2 * a[:-1], h**2 * a[1:]
             with np.errstate(invalid="ignore", divide="ignore"):
                 remainders = q - r0 - 0.5 * c0, r1 - r0 - c0, c1 - c0  # what the powers 3 to 5 add at the end
                 third = 10.0 * remainders[0] - 4.0 * remainders[1] + 0.5 * remainders[2]
                 fourth = -15.0 * remainders[0] + 7.0 * remainders[1] - remainders[2]
                 fifth = 6.0 * remainders[0] - 3.0 * remainders[1] + 0.5 * remainders[2]
-                q_inside = x.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
+                q_inside = steps.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
                 v_inside = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
             q_inside[~self.is_within_step] = v_inside[~self.is_within_step] = np.nan
-            t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
+            t, works = steps.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
             self.inner_cache = self._build_evaluated_result(
-                Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.is_after_jump[:-1])
+                Steps(t, q_inside, v_inside, works, steps.memory[:-1], steps.state[:-1], steps.is_after_jump[:-1])
             )[0]
         return self.inner_cache[name][1:]
 
@@ -167,21 +167,21 @@ class RunInterpolant:
         state.
         """
         assert self.first is not None
-        x = self.first.concatenate(steps)
-        evaluation, has_accelerations = self._evaluate_states(x)
+        states = self.first.concatenate(steps)
+        evaluation, has_accelerations = self._evaluate_states(states)
         run = Result(
             compiled=self.compiled,
             source=self.source,
             p=self.p,
             given=self.given,
             is_given=self.is_given,
-            t=x.t,
-            q=x.q,
-            v=x.v,
+            t=states.t,
+            q=states.q,
+            v=states.v,
             accelerations=evaluation.a,
-            state=x.state,
-            memory=x.memory,
-            work=x.work,
+            state=states.state,
+            memory=states.memory,
+            work=states.work,
             impacts=np.zeros(0, IMPACT_DTYPE),
             diagnostics=UNKNOWN_DIAGNOSTICS,
         )
@@ -224,13 +224,13 @@ class RunInterpolant:
         Contact codes and modes are those of state k, and internal states vary linearly. Works are NaN unless a
         requested series needs them. `is_after_jump` is set in the first half of the interval.
         """
-        x = self.steps
-        s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
+        steps = self.steps
+        s = ((t - steps.t[k]) / (steps.t[k + 1] - steps.t[k]))[:, None]
         q, v = self._interpolate_motion(k, t, s)
-        discrete_states = np.repeat(x.memory[k : k + 1], len(t), axis=0)
+        discrete_states = np.repeat(steps.memory[k : k + 1], len(t), axis=0)
         states = slice(discrete_states.shape[1] - len(self.source.states), None)
-        discrete_states[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
-        codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
+        discrete_states[:, states] += s * (steps.memory[k + 1, states] - steps.memory[k, states])
+        codes = np.repeat(steps.state[k : k + 1], len(t), axis=0)
         works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)
         return Steps(t, q, v, works, discrete_states, codes, s[:, 0] < 0.5)
 
@@ -240,15 +240,17 @@ class RunInterpolant:
         They follow from the interpolating polynomial of q̇, whose integral is corrected linearly to meet state k + 1,
         or from the drives where the scene has no degrees of freedom.
         """
-        x = self.steps
+        steps = self.steps
         if self.is_kinematic:
-            q, v = compute_motion_at(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
+            q, v = compute_motion_at(
+                self.compiled, self.p, np.concatenate([steps.t[k : k + 1], t]), steps.q[k], steps.v[k]
+            )
             return q[1:], v[1:]
         mid, half, rates, integral = self._interpolate_rates(k)
-        places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
-        displacement = half * legval(places, integral).T
-        correction = x.q[k + 1] - x.q[k] - (displacement[1] - displacement[0])  # error of the integrated rates
-        return x.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(places[2:], rates).T
+        nodes = (np.concatenate([steps.t[k : k + 2], t]) - mid) / half
+        displacement = half * legval(nodes, integral).T
+        correction = steps.q[k + 1] - steps.q[k] - (displacement[1] - displacement[0])  # error of the integrated rates
+        return steps.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(nodes[2:], rates).T
 
     def _interpolate_rates(self, k: int) -> tuple[float, float, Any, Any]:
         """Return the polynomial of q̇ between states k and k + 1, in Legendre form.
@@ -289,11 +291,11 @@ class RunInterpolant:
         Return its estimated error, the middle and half width of its interval (s), and its Legendre coefficients. With
         films, accelerations are not used: they amplify the errors of velocities.
         """
-        x, a = self.steps, self.run.a[1:]
-        t, n = x.t[state_range], len(x.t[state_range]) * (1 if self.has_films else 2)
+        steps, a = self.steps, self.run.a[1:]
+        t, n = steps.t[state_range], len(steps.t[state_range]) * (1 if self.has_films else 2)
         mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
         s = (t - mid) / half
-        matrix, values = legvander(s, n - 1), x.v[state_range]
+        matrix, values = legvander(s, n - 1), steps.v[state_range]
         if not self.has_films:
             matrix = np.concatenate([matrix, legval(s, _differentiate_legendre(n)).T])
             values = np.concatenate([values, half * a[state_range]])
@@ -307,16 +309,16 @@ class RunInterpolant:
         They are the integral of the polynomial through the powers at six Gauss points, corrected linearly so that state
         k + 1 is met. The integral of the last k is cached.
         """
-        x = self.steps
+        steps = self.steps
         if self.works_cache[0] != k:
-            h = x.t[k + 1] - x.t[k]
-            t = x.t[k] + h * NODES
+            h = steps.t[k + 1] - steps.t[k]
+            t = steps.t[k] + h * NODES
             q, v = self._interpolate_motion(k, t, NODES[:, None])
-            power = self.compiled.evaluate(t, q, v, np.repeat(x.memory[k : k + 1], len(t), axis=0), self.p).power
+            power = self.compiled.evaluate(t, q, v, np.repeat(steps.memory[k : k + 1], len(t), axis=0), self.p).power
             self.works_cache = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
         work = legval(2.0 * s[:, 0] - 1.0, self.works_cache[1]).T
-        correction = x.work[k + 1] - x.work[k] - legval(1.0, self.works_cache[1])
-        corrected_work: Array = x.work[k] + work + s * correction
+        correction = steps.work[k + 1] - steps.work[k] - legval(1.0, self.works_cache[1])
+        corrected_work: Array = steps.work[k] + work + s * correction
         return corrected_work
 
 

@@ -65,8 +65,8 @@ class SampleReader:
 
         Raises SingularError for a sample whose quantities cannot be evaluated.
         """
-        x, n_skipped = self.run.arrays, self.n_skipped
-        is_complete = x["done"].item(k) == self.n_samples and not x["status"].item(k)
+        arrays, n_skipped = self.run.arrays, self.n_skipped
+        is_complete = arrays["done"].item(k) == self.n_samples and not arrays["status"].item(k)
         if self._is_reusable and is_complete and self._samples[k].evaluate():
             samples = self._samples[k]
             values = np.empty((len(self.names), self.n_samples - n_skipped))

@@ -47,7 +47,7 @@ class StoredSeries:
         self.arrays = dict(zip(names, np.empty((len(names), n, times.max_count)), strict=True))
         self._source, self._names_in_python = source, names
         series = [get_catalogue(source)[name] for name in names]
-        self.may_join_runs = all(one.stored or one.evaluated or one.is_by_sample for one in series)
+        self.may_join_runs = all(entry.stored or entry.evaluated or entry.is_by_sample for entry in series)
 
     def pass_arrays_to_c(self, kinematic: KinematicEnsemble) -> None:
         """Pass the arrays of series of the motion to the kinematic ensemble, so that C fills them during the runs.

@@ -53,12 +53,12 @@ class SuspectRuns:
         """
         if self.checks_all:
             return list(finished_runs)
-        x, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
-        is_suspect = x["is_suspect"][indices] > 0
+        arrays, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
+        is_suspect = arrays["is_suspect"][indices] > 0
         if self._runs.audit and list_given_coordinates(compiled.source):
-            p = x["p"][indices]
+            p = arrays["p"][indices]
             size = compute_mechanism_sizes(compiled.source, p)
-            is_suspect |= find_deviating_starts(compiled.source, p, x["start"][indices], size)
+            is_suspect |= find_deviating_starts(compiled.source, p, arrays["start"][indices], size)
         if compiled.may_drive_acceleration_jump:
             is_suspect |= [self._ends_at_jump(i) for i in finished_runs]
         return [int(i) for i in indices[is_suspect]]

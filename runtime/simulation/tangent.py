@@ -415,16 +415,17 @@ class Tangent:
         """
         flow, size = self.flow, 2 * self.flow.m
         (y, q_dep), d = flow.reduce_state(t, state_at_t[0]), z[:size]
-        closed, free = state_at_t[1].copy(), state_at_t[1].copy()
-        closed[joint], free[joint] = approach_speed, np.nan
+        closed_states, open_states = state_at_t[1].copy(), state_at_t[1].copy()
+        closed_states[joint], open_states[joint] = approach_speed, np.nan
         penetration, rate = flow.compute_penetration(joint, t, y, q_dep)
         h = DIFFERENCE_STEP / self.norm.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
         ends = [np.array(flow.compute_penetration(joint, t, y + s * h * d, q_dep)) for s in (1.0, -1.0)]
         penetration_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
         time_shift = -penetration_slope / rate
         offset = (CLEARANCE_OFFSET * flow.radial_clearances[joint] + 2.0 * abs(penetration)) / abs(rate)  # s
-        drift = flow.compute_rates(t, y, q_dep, free)
+        drift = flow.compute_rates(t, y, q_dep, open_states)
         drift[flow.m :] = 0.0
+        both_states = (open_states, closed_states) if is_onset else (closed_states, open_states)  # before, after
         f = [
             flow.compute_rates(
                 t + s * offset,
@@ -432,7 +433,7 @@ class Tangent:
                 flow.compute_dependent_coordinates(t + s * offset, q_dep),
                 discrete_states,
             )
-            for s, discrete_states in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
+            for s, discrete_states in zip((-1.0, 1.0), both_states, strict=True)
         ]
         z_after = z.copy()
         z_after[:size] -= (f[1] - f[0]) * time_shift

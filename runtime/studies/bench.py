@@ -172,8 +172,8 @@ def measure_scene(
             simulation, parameters, KINEMATIC_SAMPLE_COUNTS[:3] if quick else KINEMATIC_SAMPLE_COUNTS, t_end, progress
         )
     selected, left_out = select_methods(simulation, methods, quick)
-    usual = list_bench_steps(simulation, parameters, quick)
-    steps = sorted(check_numbers(steps, "steps") or usual, reverse=True)
+    default_steps = list_bench_steps(simulation, parameters, quick)
+    steps = sorted(check_numbers(steps, "steps") or default_steps, reverse=True)
     tolerances = sorted(
         check_numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True
     )
@@ -205,8 +205,8 @@ def list_bench_steps(
 
     With `quick` they begin at the default step of the scene itself. `parameters` None: the values of the file.
     """
-    usual = find_default_step(simulation, parameters)
-    return list_round_numbers(usual * (1 if quick else MIN_STEP_FACTOR), usual * MAX_STEP_FACTOR)
+    default_step = find_default_step(simulation, parameters)
+    return list_round_numbers(default_step * (1 if quick else MIN_STEP_FACTOR), default_step * MAX_STEP_FACTOR)
 
 
 def select_references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
@@ -283,18 +283,22 @@ def _measure_rows(
     out. settings: of one method from the loosest tolerance on.
     """
     rows: list[Row] = []
-    slow: dict[str, str] = {}
+    omissions: dict[str, str] = {}
     for k, setting in enumerate(settings):
-        if setting.method in slow:
+        if setting.method in omissions:
             continue
         try:
             outcome = run_setting(k, setting)
             if outcome.slow:
-                slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {outcome.failure}"
+                omissions[setting.method] = f"{setting.method}: {setting} and tighter left out: {outcome.failure}"
                 continue
             rows.append(_measure_row(window, outcome, references))
         except KeyboardInterrupt:
-            return rows, list(slow.values()), sum(setting_left.method not in slow for setting_left in settings[k:])
+            return (
+                rows,
+                list(omissions.values()),
+                sum(setting_left.method not in omissions for setting_left in settings[k:]),
+            )
         if (
             setting.method in python_driver.NAMES
             and _read_run_time(outcome) > MAX_CROSS_CHECK_S
@@ -303,8 +307,8 @@ def _measure_rows(
             next_setting = settings[k + 1]
             if next_setting.method == setting.method:
                 reason = f"{setting} took {_read_run_time(outcome):.2g} s"
-                slow[setting.method] = f"{setting.method}: {next_setting} and tighter left out: {reason}"
-    return rows, list(slow.values()), 0
+                omissions[setting.method] = f"{setting.method}: {next_setting} and tighter left out: {reason}"
+    return rows, list(omissions.values()), 0
 
 
 def _read_run_time(attempt: Attempt) -> float:

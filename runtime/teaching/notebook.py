@@ -152,13 +152,13 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
     """Yield the cells of constraint equations: two for each joint or drive, then the column Phi of all; none without
     rows.
     """
-    mechanism, parts = model.scene.mechanism, list[str]()
+    mechanism, entries = model.scene.mechanism, list[str]()
     if not model.rows:
         return
     yield "markdown", "## Constraints\n\nThe mechanism is closed while Φ(q, t) = 0, joint by joint, drive by drive."
     for (owner, kind), group in groupby(model.rows, key=lambda row: (row.owner, row.kind)):
         rows, name = list(group), f"Phi_{owner}"
-        parts.append(f"*{name}")
+        entries.append(f"*{name}")
         if kind == "drive":
             title, code = f"Drive {owner}", None
         else:
@@ -178,7 +178,7 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
         )
         explicit = [format_expression(row.phi, model, names) for row in rows]
         yield "code", code or f"{name} = {_write_column_by_lines(explicit)}"
-    yield "code", f"Phi = {_write_column(parts)}\nPhi"
+    yield "code", f"Phi = {_write_column(entries)}\nPhi"
 
 
 def _write_revolute_code(
@@ -228,11 +228,11 @@ def _yield_equation_of_motion_cells(model: Model, names: dict[sp.Symbol, str]) -
 
 def format_document(document: Document) -> str:
     """Return a whole document as Markdown: title, facts, and its sections with headings by level."""
-    parts = [f"# {escape_markdown(document.title)}", *map(format_text, document.facts)]
+    blocks = [f"# {escape_markdown(document.title)}", *map(format_text, document.facts)]
     for section in document.sections:
-        parts.append(f"{'#' * (section.level + 1)} {escape_markdown(section.title)}")
-        parts += map(format_block, section.blocks)
-    return "\n\n".join(parts) + "\n"
+        blocks.append(f"{'#' * (section.level + 1)} {escape_markdown(section.title)}")
+        blocks += map(format_block, section.blocks)
+    return "\n\n".join(blocks) + "\n"
 
 
 def format_block(block: Block) -> str:

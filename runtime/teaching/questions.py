@@ -81,8 +81,8 @@ def _make_mobility_question(subject: Subject) -> Question:
         PHI_Q,
         " agree?",
     )
-    numbers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
-    return Question("Count the degrees of freedom", (requested,), tuple(solved), numbers)
+    answers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
+    return Question("Count the degrees of freedom", (requested,), tuple(solved), answers)
 
 
 def _format_owners(subject: Subject) -> str:
@@ -134,11 +134,11 @@ def _make_jacobian_question(subject: Subject) -> Question:
     values = compiled.phi_q(exercise.t, exercise.q, exercise.p)
     errors = exercise.estimate_rounding_uncertainty(lambda q, v: compiled.phi_q(exercise.t, q, exercise.p))
     column_of = {q: k for k, q in enumerate(model.q)}
-    numbers, rows, below = dict[str, float](), [], list[Block]()
+    answers, rows, below = dict[str, float](), [], list[Block]()
     for k, row in subject.selected_rows:
         for q in sorted(row.phi_q, key=column_of.__getitem__):
             x = float(values[k - 1, column_of[q]])
-            numbers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
+            answers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
             coordinate = subject.notation.format_expression(q)
             left = Formula(rf"\partial \Phi_{{{k}}} / \partial {coordinate.latex}", f"∂Φ_{k}/∂{coordinate.text}")
             entry = subject.notation.expand_symbols(row.phi_q[q])
@@ -164,7 +164,7 @@ def _make_jacobian_question(subject: Subject) -> Question:
         *make_tables(make_row("entry", "", "value", "unit"), rows),
         *below,
     ]
-    return Question("The Jacobian at a position", tuple(requested), tuple(solved), numbers)
+    return Question("The Jacobian at a position", tuple(requested), tuple(solved), answers)
 
 
 def _find_entry_unit(row_unit: str, axis: int) -> str:
@@ -179,9 +179,9 @@ def _make_gamma_question(subject: Subject) -> Question:
     values = compiled.gamma(exercise.t, exercise.q, exercise.v, exercise.p)
     errors = exercise.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(exercise.t, q, v, exercise.p))
     scale = float(np.abs(values).max())
-    numbers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
+    answers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
     for k, row in subject.selected_rows:
-        numbers[row.name] = float(values[k - 1])
+        answers[row.name] = float(values[k - 1])
         gamma = format_gamma(row, subject.model, subject.notation)
         if gamma != 0 and sp.count_ops(gamma) <= MAX_OPERATIONS:
             formula = subject.make_equation(make_indexed_symbol("gamma", k), gamma)
@@ -190,14 +190,14 @@ def _make_gamma_question(subject: Subject) -> Question:
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
         solved.append(
-            subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, errors[k - 1])
+            subject.make_value_equation(make_indexed_symbol("gamma", k), answers[row.name], unit, scale, errors[k - 1])
         )
     requested = [
         make_paragraph(f"At the same time, {exercise.t:g} s, the rates are"),
         *tabulate_positions(subject, shows_rates=True),
         make_paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
-    return Question("γ", tuple(requested), tuple(solved), numbers)
+    return Question("γ", tuple(requested), tuple(solved), answers)
 
 
 def _make_play_question(subject: Subject) -> Iterator[Question]:
@@ -226,8 +226,8 @@ def _make_play_question(subject: Subject) -> Iterator[Question]:
         subject.make_value_equation(make_symbol_name("delta", joint), e - clearance, "m"),
         make_paragraph(f"As δ is {'positive' if e > clearance else 'negative'}, {touch}."),
     )
-    numbers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
-    yield Question("A joint with play", (requested,), solved, numbers)
+    answers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
+    yield Question("A joint with play", (requested,), solved, answers)
 
 
 def list_abbreviations(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:

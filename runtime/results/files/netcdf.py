@@ -326,11 +326,11 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
 
 def _check_names_and_units(source: KernelSource) -> None:
     """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
-    parts: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
-    parts += source.points
+    components: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    components += source.points
     choices = [choice for slot in source.slots for choice in slot.words]
     units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
-    names = [part.name for part in parts] + [slot.address for slot in source.slots] + [*source.outputs]
+    names = [component.name for component in components] + [slot.address for slot in source.slots] + [*source.outputs]
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is not a valid name")

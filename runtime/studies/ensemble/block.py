@@ -395,11 +395,11 @@ class _Collector:
         N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
         t = np.full((job.n_runs, N), np.nan)
         series = {name: np.full((job.n_runs, N), np.nan) for name in keep}
-        for runs, requested, kept in self.kept:
-            used = kept["t"]
+        for runs, requested, stored in self.kept:
+            used = stored["t"]
             t[runs, : used.shape[1]] = np.where(np.isnan(used), requested, used)
-            for name in (name for name in keep if name in kept):
-                series[name][runs, : used.shape[1]] = kept[name]
+            for name in (name for name in keep if name in stored):
+                series[name][runs, : used.shape[1]] = stored[name]
         began = ~np.isnan(self.t_last)
         t[~began] = np.nan
         common = t[began][0] if began.any() else np.zeros(N)

@@ -220,7 +220,7 @@ def _compute_kinematic_series(
     Runs that fail are left out, and are simulated for their reason. Empty for a scene with degrees of freedom. A
     simulation would spend two thirds of its time on the energy balance, which is not used.
     """
-    source, compiled, parts = (
+    source, compiled, field_names = (
         simulation.source,
         simulation.compiled,
         find_evaluation_fields(simulation.source, series_names),
@@ -240,7 +240,16 @@ def _compute_kinematic_series(
             q, v = compute_motion_at(compiled, p, t, start.q, start.v)
             no_states = np.zeros((len(t), 0))
             run = make_evaluated_samples(
-                source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), no_states, no_states.astype(np.int8), parts
+                source,
+                compiled,
+                p,
+                t,
+                q,
+                v,
+                np.full((len(t), 3), np.nan),
+                no_states,
+                no_states.astype(np.int8),
+                field_names,
             )
             series_by_run = (
                 {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}

@@ -49,8 +49,8 @@ class PageFigures:
 
     def insert_figures(self, page: str) -> str:
         """Draw all registered figures and return the page (HTML) with their SVG in place of the placeholders."""
-        drawn = _draw_in_processes(self.figures)
-        return _PLACEHOLDER.sub(lambda place: drawn[int(place[1])], page)
+        svg_texts = _draw_in_processes(self.figures)
+        return _PLACEHOLDER.sub(lambda place: svg_texts[int(place[1])], page)
 
 
 def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_figures: PageFigures) -> str:
