@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial.legendre import legder, legfit, leggauss, legint, legval, legvander
@@ -51,6 +51,16 @@ UNKNOWN_DIAGNOSTICS = Diagnostics(
     seconds=math.nan,
     seconds_per_simulated_second=math.nan,
 )
+
+
+class _RatePolynomial(NamedTuple):
+    """Represent the polynomial of q̇ over an interval, in Legendre form, and its integral over (t − middle)/half_width."""
+
+    error: float  # estimate
+    middle: float  # s
+    half_width: float  # s
+    coefficients: Any  # (n_coefficients, n)
+    integral: Any  # (n_coefficients + 1, n)
 
 
 class RunInterpolant:
@@ -152,8 +162,10 @@ class RunInterpolant:
         angles). The forces of films and of stiff friction depend steeply on the speed. Interpolated speeds within the
         tolerance may therefore give wrong forces.
         """
-        mid, half, rates, _ = self._interpolate_rates(k)
-        differences = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
+        rates = self._interpolate_rates(k)
+        nodes = (t - rates.middle) / rates.half_width
+        slopes = legval(nodes, legder(rates.coefficients)).T / rates.half_width
+        differences = np.abs(a - slopes).reshape(len(t), -1, 3)
         largest = np.abs(self.run.a[1:][k : k + 2]).reshape(2, -1, 3)
         errors = [
             differences[..., kind].max(axis=(1, 2)) / largest[..., kind].max(initial=1e-300) for kind in ([0, 1], [2])
@@ -246,29 +258,29 @@ class RunInterpolant:
                 self.compiled, self.p, np.concatenate([steps.t[k : k + 1], t]), steps.q[k], steps.v[k]
             )
             return q[1:], v[1:]
-        mid, half, rates, integral = self._interpolate_rates(k)
-        nodes = (np.concatenate([steps.t[k : k + 2], t]) - mid) / half
-        displacement = half * legval(nodes, integral).T
+        rates = self._interpolate_rates(k)
+        nodes = (np.concatenate([steps.t[k : k + 2], t]) - rates.middle) / rates.half_width
+        displacement = rates.half_width * legval(nodes, rates.integral).T
         correction = steps.q[k + 1] - steps.q[k] - (displacement[1] - displacement[0])  # error of the integrated rates
-        return steps.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(nodes[2:], rates).T
+        return steps.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(
+            nodes[2:], rates.coefficients
+        ).T
 
-    def _interpolate_rates(self, k: int) -> tuple[float, float, Any, Any]:
-        """Return the polynomial of q̇ between states k and k + 1, in Legendre form.
+    def _interpolate_rates(self, k: int) -> _RatePolynomial:
+        """Return the polynomial of q̇ between states k and k + 1.
 
-        Return the middle and half width (s) of its interval, its coefficients, and those of its integral. It also
-        passes through neighbouring states where these reduce its estimated error; across a kink of a force they do not.
-        The result of the last k is cached.
+        It also passes through neighbouring states where these reduce its estimated error; across a kink of a force they
+        do not. The result of the last k is cached.
         """
         if self.rates_cache[0] != k:
             h, max_count = np.diff(self.steps.t), 2 if self.has_films else 1  # neighbours on each side
             before, after = (self._count_neighbours(h, k, direction, max_count) for direction in (-1, 1))
             ranges = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
-            fit = min(
-                (self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda fit_of_range: fit_of_range[0]
-            )
-            self.rates_cache = k, (*fit[1:], legint(fit[3]))
-        interpolant: tuple[float, float, Any, Any] = self.rates_cache[1]
-        return interpolant
+            fits = (self._fit_rates(slice(*rows)) for rows in sorted(ranges))
+            fit = min(fits, key=lambda fit_of_range: fit_of_range.error)
+            self.rates_cache = k, fit._replace(integral=legint(fit.coefficients))
+        polynomial: _RatePolynomial = self.rates_cache[1]
+        return polynomial
 
     def _count_neighbours(self, h: Array, k: int, direction: int, max_count: int) -> int:
         """Return how many states before k or after k + 1 the polynomial may pass through, 0 to `max_count`.
@@ -285,23 +297,24 @@ class RunInterpolant:
                 return count
         return max_count
 
-    def _fit_rates(self, state_range: slice) -> tuple[float, float, float, Any]:
+    def _fit_rates(self, state_range: slice) -> _RatePolynomial:
         """Fit the polynomial of q̇ to the states in the slice `state_range` and their accelerations.
 
-        Return its estimated error, the middle and half width of its interval (s), and its Legendre coefficients. With
-        films, accelerations are not used: they amplify the errors of velocities.
+        Its error is estimated from the last two coefficients; its integral is left out (None). With films,
+        accelerations are not used: they amplify the errors of velocities.
         """
         steps, a = self.steps, self.run.a[1:]
         t, n = steps.t[state_range], len(steps.t[state_range]) * (1 if self.has_films else 2)
-        mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
-        s = (t - mid) / half
+        middle, half_width = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
+        s = (t - middle) / half_width
         matrix, values = legvander(s, n - 1), steps.v[state_range]
         if not self.has_films:
             matrix = np.concatenate([matrix, legval(s, _differentiate_legendre(n)).T])
-            values = np.concatenate([values, half * a[state_range]])
+            values = np.concatenate([values, half_width * a[state_range]])
         coefficients = np.linalg.solve(matrix, values)
         last, second_last = np.abs(coefficients[-1]).max(), np.abs(coefficients[-2]).max()
-        return float(last * min(1.0, last / max(second_last, 1e-300))), mid, half, coefficients
+        error = float(last * min(1.0, last / max(second_last, 1e-300)))
+        return _RatePolynomial(error, middle, half_width, coefficients, None)
 
     def _interpolate_works(self, k: int, s: Array) -> Array:
         """Return the works (T, 3) in J at fractions s (T, 1) between states k and k + 1.

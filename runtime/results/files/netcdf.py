@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 
 FORMAT = "gudgeon-result/2"
 MAX_ATTRIBUTE_NAME = 200  # characters
-SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
+SERIES, ENVELOPE, EVENT_STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
 START = "start_row"  # series at the start of a run, where that is not a sample
 GIVEN_START = "given_start"  # the state that a run was given as `start`
-PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
+PARTS = ("impacts", "events", EVENT_STATES, "parameters", ENVELOPE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -46,7 +46,7 @@ IMPACTS = {
 }
 EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of the event")}
 PROVENANCE_GROUP = "provenance"
-TRACE_TIME = ("s", "end of the last step of the row")
+ENVELOPE_TIME = ("s", "end of the last step of the row")
 EXTREMES = {
     "name": ("", "series"),
     "against": ("", "scene whose series was subtracted"),
@@ -69,9 +69,9 @@ def build_tables(run: Result) -> Iterator[Table]:
     yield Table("impacts", "impact", tuple(build_record_variables(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
     yield Table("events", "occurrence", tuple(build_record_variables(run.events, EVENTS, events)), {})
-    yield Table(STATES, "occurrence", tuple(_iterate_event_variables(run, events)), {})
+    yield Table(EVENT_STATES, "occurrence", tuple(_iterate_event_variables(run, events)), {})
     yield Table("parameters", "address", tuple(_iterate_parameter_variables(run)), {})
-    yield Table(TRACE, "t", tuple(_iterate_envelope_variables(run)), {})
+    yield Table(ENVELOPE, "t", tuple(_iterate_envelope_variables(run)), {})
     yield Table(PEAKS, "row", tuple(_iterate_peak_variables(run)), {})
     derived = Variable("value", run.p[len(run.given) :], "", "value derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
@@ -161,7 +161,7 @@ def _iterate_envelope_variables(run: Result) -> Iterator[Variable]:
     """
     if run.trace is None:
         return
-    yield Variable("t", run.trace.t, *TRACE_TIME)
+    yield Variable("t", run.trace.t, *ENVELOPE_TIME)
     for k, joint in enumerate(run.source.clearances):
         for column, (name, (unit, meaning)) in enumerate(TRACED.items()):
             yield Variable(f"{joint.name}.{name}", run.trace.joints[:, k, column], unit, meaning)
@@ -289,7 +289,7 @@ def read_result(file: File, source: KernelSource, series_names: tuple[str, ...])
         check_times(np.append(run.start_row.t, t[0]))
     if file.has_entry(GIVEN_START):
         run.given_start = _read_given_start(file, run.final)
-    if file.has_entry(STATES):
+    if file.has_entry(EVENT_STATES):
         run.__dict__["states_at_events"] = read_states_at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # raise an error if the file lacks their data
     check_extremes(diagnostics.extremes, run.names)
@@ -405,10 +405,10 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
 
 def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
     """Return the envelope over the steps, TRACE_COLUMNS of each joint with play; None without one or in older files."""
-    if not file.has_entry(TRACE):
+    if not file.has_entry(ENVELOPE):
         return None
-    t = file.read_array(f"{TRACE}/t")
-    names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
+    t = file.read_array(f"{ENVELOPE}/t")
+    names = [[f"{ENVELOPE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
     columns = [[file.read_array(name, len(t)) for name in joint_columns] for joint_columns in names]
     return Envelope(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
@@ -465,7 +465,7 @@ def read_states_at_events(file: File, run: Result) -> Result:
     stored, count, start_row = {}, len(run.events), run.start_row or run
     for name in run.stored:
         values = file.read_array(
-            f"{STATES}/{name_event_column(name)}", count, "i1" if name.endswith(".state") else "f8"
+            f"{EVENT_STATES}/{name_event_column(name)}", count, "i1" if name.endswith(".state") else "f8"
         )
         stored[name] = np.concatenate([start_row.stored[name][:1], values])
         stored[name].flags.writeable = False

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # the written format; the former one, with common times of all runs
 RUNS, GIVEN, EXTREMES, NUMBER = "runs", "given", "extremes", "number"
-TIMES, KEPT, OWNER = "times", "kept", "run"
+TIMES, KEPT, RUN_COLUMN = "times", "kept", "run"
 COUNTS = (*STORED_COUNTS, "seconds")
 
 
@@ -90,7 +90,7 @@ def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attribu
     `tables_by_run` has (run, table) of each run with rows; without any, the result has no variables.
     """
     run_numbers = [np.full(table.length, i, np.int32) for i, table in tables_by_run]
-    variables = [Variable(OWNER, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
+    variables = [Variable(RUN_COLUMN, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
     for k, first in enumerate(tables_by_run[0][1].variables if tables_by_run else ()):
         values = np.concatenate([table.variables[k].values for _, table in tables_by_run])
         variables.append(Variable(name_column(first.name), values, first.unit, first.meaning))
@@ -99,7 +99,7 @@ def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attribu
 
 def name_column(name: str) -> str:
     """Return the column name of a series in a long table: the name itself, or "output.NAME" for "run" and "row"."""
-    return f"output.{name}" if name in (OWNER, "row") else name
+    return f"output.{name}" if name in (RUN_COLUMN, "row") else name
 
 
 def _format_stored_name(name: str) -> str:
@@ -297,8 +297,8 @@ class LongTables:
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
             run_numbers, needs_run_numbers = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
-            if file.has_entry(group) and (needs_run_numbers or file.has_entry(f"{group}/{OWNER}")):
-                run_numbers = file.read_array(f"{group}/{OWNER}", None, "i4")
+            if file.has_entry(group) and (needs_run_numbers or file.has_entry(f"{group}/{RUN_COLUMN}")):
+                run_numbers = file.read_array(f"{group}/{RUN_COLUMN}", None, "i4")
             if len(run_numbers) and (
                 run_numbers[0] < 0 or run_numbers[-1] >= n_runs or (np.diff(run_numbers) < 0).any()
             ):
@@ -350,7 +350,7 @@ class _StoredResults:
 def _read_batch(opened_file: Any, size: int) -> Batch:
     """Return the batch of an open HDF5 file of `size` bytes. Raises ValueError, TypeError or KeyError if invalid."""
     file = File(opened_file, size, FORMATS)
-    source, count = netcdf.read_source(file), len(file.read_array(OWNER, None, "i8"))
+    source, count = netcdf.read_source(file), len(file.read_array(RUN_COLUMN, None, "i8"))
     batch_values = json.loads(file.read_text_attribute("batch"))
     stored_names = batch_values.get("kept")
     series_names, long_tables = tuple(get_catalogue(source)), LongTables(file, count, stored_names is None)
