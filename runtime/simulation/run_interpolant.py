@@ -54,7 +54,7 @@ UNKNOWN_DIAGNOSTICS = Diagnostics(
 
 
 class _RatePolynomial(NamedTuple):
-    """Represent the polynomial of q̇ over an interval, in Legendre form, and its integral over (t − middle)/half_width."""
+    """Represent a polynomial of q̇ in Legendre form, with its integral over s = (t − middle)/half_width."""
 
     error: float  # estimate
     middle: float  # s
