@@ -294,14 +294,14 @@ def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], boo
     is_length = np.array([row.unit == "m" for row in rows], dtype=bool)
     known_size, limits = math.nan, np.zeros(len(rows))
 
-    def fits_constraints(phi: Array, size: float) -> bool:
+    def satisfies_constraints(phi: Array, size: float) -> bool:
         """Return whether no residual exceeds its limit; NaN does."""
         nonlocal known_size, limits
         if size != known_size:
             known_size, limits = size, MAX_VIOLATION * np.where(is_length, size, 1.0)
         return b"\0" not in (np.abs(phi.take(indices)) <= limits).tobytes()  # quicker than all()
 
-    return fits_constraints
+    return satisfies_constraints
 
 
 def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:

@@ -94,7 +94,7 @@ class VerdictMap(_Verdicts):
         column_index = self.columns.values.index(column_value) if column_value == column_value else 0
         return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row_value)]
 
-    def find_largest_stable_row(self, column_value: float) -> float:
+    def find_stability_limit(self, column_value: float) -> float:
         """Return the stability limit of a column: the largest row value up to which all cells of the column are stable.
 
         NaN if the cell at the smallest row value is not stable. Raises KeyError for a column value that is not on the

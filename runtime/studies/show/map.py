@@ -161,7 +161,7 @@ def _build_boundary_table(verdict_map: VerdictMap) -> Table:
     name = verdict_map.columns.name
     table = make_rich_table((name, "largest stable step", "next step"), left_aligned=("next step",))
     for x in verdict_map.columns.values:
-        largest = verdict_map.find_largest_stable_row(x)
+        largest = verdict_map.find_stability_limit(x)
         next_step = next((step for step in verdict_map.rows.values if not step <= largest), None)
         cell = verdict_map.get_cell(next_step, x) if next_step is not None else None
         next_cell_text = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "none on the axis"
@@ -250,7 +250,7 @@ def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) 
         cells = [verdict_map.get_cell(step, x) for x in verdict_map.columns.values]
         counts = Counter(cell.status for cell in cells)
         counts_text = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
-        stable_steps = [x for x in map(verdict_map.find_largest_stable_row, verdict_map.columns.values) if x == x]
+        stable_steps = [x for x in map(verdict_map.find_stability_limit, verdict_map.columns.values) if x == x]
         shortest = format_seconds(min(stable_steps)) if len(stable_steps) == len(cells) else "none on the axis"
         lines.append(
             f"step {format_seconds(step)}, {verdict_map.scene}: of {len(cells)} columns {counts_text}; "
