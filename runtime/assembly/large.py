@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gudgeon.model.compiled import Array
-from gudgeon.waiting.imports import SPARSE, import_modules_completely
+from gudgeon.waiting.imports import SPARSE, import_modules_in_thread
 
 MIN_SPARSE_COORDINATES = 150  # coordinates from which on sparse solvers are used
 DAMPING = 1e-10  # of the sum of squares, as in C's first step (engine/scene/start.c)
@@ -135,7 +135,7 @@ def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
 
     Raises RuntimeError if the matrix is singular.
     """
-    import_modules_completely(*SPARSE)
+    import_modules_in_thread(*SPARSE)
     from scipy import sparse
     from scipy.sparse.linalg import splu
 

@@ -179,7 +179,7 @@ class KinematicRun:
             first += int(self.call_counts[1])
             if self.steps:
                 self.steps.collect_steps(motion_struct)
-            self.cancellation_poll.raise_stored(status == STOPPED)
+            self.cancellation_poll.raise_stored_exception(status == STOPPED)
         return first, int(status)
 
     def _compute_works(self, first: int, last: int) -> int:
@@ -198,7 +198,7 @@ class KinematicRun:
             *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
             self.pointer(done, "long *"),
         )
-        self.cancellation_poll.raise_stored(status == STOPPED)
+        self.cancellation_poll.raise_stored_exception(status == STOPPED)
         if status:
             self.last_complete = first + int(done[0])
             raise self._build_error(status)

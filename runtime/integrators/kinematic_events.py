@@ -79,7 +79,7 @@ class KinematicEvents:
             pointer(counts, "long *"),
             pointer(counts[1:], "long *"),
         )
-        run_state.cancellation_poll.raise_stored(status == STOPPED)
+        run_state.cancellation_poll.raise_stored_exception(status == STOPPED)
         new_events = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
         new_events["event"], new_events["t"] = event_indices[: len(new_events)], event_times[: len(new_events)]
         self.found_events = np.concatenate([self.found_events, new_events])

@@ -118,7 +118,7 @@ class ReusableRun(Runs):
         self._begun_row, current[0] = k, k
         while current[0] == k:
             result = lib.gudgeon_ensemble(self.struct, self._integrator, current, k + 1)
-            self._poll.raise_stored(False)
+            self._poll.raise_stored_exception(False)
             if result == RUN_ENDED:
                 break
             if result == BUFFERS_FULL:

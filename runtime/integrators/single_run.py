@@ -157,7 +157,7 @@ class SingleRun(Runs):
 
     def _poll(self) -> None:
         """Raise the exception that a poll within C stored, if any, and poll once more."""
-        self._cancellation.raise_stored(False)
+        self._cancellation.raise_stored_exception(False)
         self._poll_and_report_progress()
 
     def _poll_and_report_progress(self) -> None:

@@ -28,7 +28,7 @@ from gudgeon.loading.shipped import (
     read_committed_source,
 )
 from gudgeon.waiting.cancellation import report_work
-from gudgeon.waiting.imports import GENERATOR, READER, import_modules_completely, pause_garbage_collector
+from gudgeon.waiting.imports import GENERATOR, READER, import_modules_in_thread, pause_garbage_collector
 
 if TYPE_CHECKING:
     from gudgeon.loading.background_compilation import BackgroundCompilation
@@ -170,7 +170,7 @@ def is_source_cached(mechanism: str, scene: str, overrides: Overrides) -> bool:
 
 def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
     """Return whether overrides change the equations of the scene, not only parameter values."""
-    import_modules_completely(*READER)
+    import_modules_in_thread(*READER)
     from gudgeon.generator.reader.read import overrides_change_scene
 
     return overrides_change_scene(data, str(file), scene, overrides)
@@ -215,7 +215,7 @@ def derive_kernel_source(
         report_work(f"deriving {file.stem}, scene {scene}"),
         pause_garbage_collector(),
     ):  # nearly all objects of SymPy stay in its caches
-        import_modules_completely(*READER)
+        import_modules_in_thread(*READER)
         from gudgeon.generator.reader.read import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
@@ -223,7 +223,7 @@ def derive_kernel_source(
         if background and formulation == FORMULATIONS[0]:  # copies of shipped files usually have changed values only
             background.prefetch_engine(read_committed_header(read.mechanism.name, scene))
         start = perf_counter()
-        import_modules_completely(*GENERATOR)
+        import_modules_in_thread(*GENERATOR)
         from gudgeon.generator.pipeline import derive_equations, generate_c
 
         if seconds is not None and (took := perf_counter() - start) > 0.01:

@@ -29,7 +29,7 @@ from gudgeon.loading.engine import (
     list_scene_texts,
 )
 from gudgeon.loading.shipped import PACKAGE
-from gudgeon.waiting.imports import CFFI, import_modules_completely
+from gudgeon.waiting.imports import CFFI, import_modules_in_thread
 
 UNOPTIMIZED_NOTE = "its optimized library was still being compiled at the start of the run: later runs take less time"
 BUNDLED_FOLDER = PACKAGE / "carried"  # folder of the bundled libraries
@@ -133,7 +133,7 @@ def _get_engine_interface() -> Any:
 
 def _parse_declarations(text: str) -> Any:
     """Parse declarations and return cffi's interface to them; importing the parser takes a tenth of a second."""
-    import_modules_completely(*CFFI)
+    import_modules_in_thread(*CFFI)
     from cffi import FFI
 
     ffi = FFI()

@@ -75,10 +75,10 @@ class ResultOf(Protocol):
     def notes(self) -> Mapping[int, tuple[str, ...]]:
         """Return the notes of the runs by run number."""
 
-    def evaluate_samples(self, i: int, parts: frozenset[str], /) -> Result | None:
+    def build_run_samples(self, i: int, field_names: frozenset[str], /) -> Result | None:
         """Return the samples of run i as a Result without diagnostics, or None for a run without samples.
 
-        Only `parts` of an Evaluation can be computed from it.
+        Only the fields `field_names` of an Evaluation can be computed from it.
         """
 
 
@@ -334,10 +334,10 @@ def check_series_names(source: KernelSource, names: str | Iterable[str], argumen
     return unique_names
 
 
-def find_evaluation_parts(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
-    """Return the parts of an Evaluation that the series `names` need; "t" needs none."""
+def find_evaluation_fields(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
+    """Return the fields of an Evaluation that the series `names` need; "t" needs none."""
     all_series = get_catalogue(source)
-    return frozenset(part for name in names if name != "t" for part in all_series[name].parts)
+    return frozenset(field for name in names if name != "t" for field in all_series[name].evaluation_fields)
 
 
 def depends_on_works(source: KernelSource, name: str) -> bool:
@@ -434,12 +434,12 @@ def iterate_run_series(batch: Batch, names: Sequence[str]) -> Iterator[RunSeries
     """
     check_series_stored(batch, names)
     get_run_series = _read_stored_run_series if batch.states is None else _evaluate_run_series
-    evaluation_parts = find_evaluation_parts(batch.source, names)
+    evaluation_fields = find_evaluation_fields(batch.source, names)
 
     def make_block(first_run: int) -> list[RunSeries]:
         """Return the series of RUNS_PER_BLOCK runs from `first_run` on; runs without samples are left out."""
         rows = (
-            get_run_series(batch, i, names, evaluation_parts)
+            get_run_series(batch, i, names, evaluation_fields)
             for i in range(first_run, min(first_run + RUNS_PER_BLOCK, len(batch)))
         )
         return [row for row in rows if row is not None]
@@ -472,12 +472,12 @@ def _evaluate_blocks_in_order(
 
 
 def _evaluate_run_series(
-    batch: Batch, i: int, names: Sequence[str], evaluation_parts: frozenset[str]
+    batch: Batch, i: int, names: Sequence[str], evaluation_fields: frozenset[str]
 ) -> RunSeries | None:
     """Return run number, sample times and {name: values} of run i, evaluated from its states; None if it has no
     samples.
     """
-    run: Result | None = batch.result.evaluate_samples(i, evaluation_parts)
+    run: Result | None = batch.result.build_run_samples(i, evaluation_fields)
     return None if run is None else (i, run.t, {name: run[name] for name in names})
 
 

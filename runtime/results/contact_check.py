@@ -150,13 +150,13 @@ def _find_sample_faults(
     indices = np.flatnonzero(fault_mask)
     for neighbour_indices in np.split(indices, np.flatnonzero(np.diff(indices) > 1) + 1):
         if len(neighbour_indices):
-            worst = (
+            index = (
                 neighbour_indices[np.argmax(penetration[neighbour_indices])]
                 if kind == "penetration"
                 else neighbour_indices[np.argmax(force[neighbour_indices])]
             )
             max_force = float(force[neighbour_indices].max())
-            yield Fault(kind, joint.name, float(run.t[worst]), float(penetration[neighbour_indices].max()), max_force)
+            yield Fault(kind, joint.name, float(run.t[index]), float(penetration[neighbour_indices].max()), max_force)
 
 
 def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, max_touching_force: float) -> Iterator[Fault]:

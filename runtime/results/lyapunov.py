@@ -58,7 +58,7 @@ class Lyapunov:
 
     @cached_property
     def series(self) -> Array:
-        """The exponent in 1/s as estimated up to t[1:], (k,).
+        """The exponent in 1/s as estimated up to t[1:], (k,): the regression slope of the logarithm of the growth.
 
         It is NaN during the first tenth of the time, while the difference turns to the direction of largest growth.
         """
@@ -87,7 +87,11 @@ class Lyapunov:
 
     @cached_property
     def per_return_uncertainty(self) -> float:
-        """One standard error of `per_return`; NaN with fewer than two returns."""
+        """One standard error of `per_return`; NaN with fewer than two returns.
+
+        It is the root of the sum of two squares: the standard error of the slope over the returns, and `unresolved`
+        (1/s) times the mean time between returns.
+        """
         times, logs = self._section_returns
         if len(times) < 2:
             return math.nan

@@ -79,12 +79,12 @@ def classify_motion(
         if _compute_max_deviation(points) > tolerance * extent
         else math.nan
     )
-    growing_support, neutral_support = _compute_growth_supports(per_return, exponent_error, len(points))
+    growth_probability, neutral_probability = _compute_growth_probabilities(per_return, exponent_error, len(points))
     regular_measure = 1.0 - abs(chaos_measure) if math.isfinite(chaos_measure) else math.nan
     supports = {
-        PERIODIC: _find_min_support(fraction, 1.0 - growing_support),
-        QUASI: _find_min_support(1.0 - fraction, neutral_support, regular_measure),
-        CHAOTIC: _find_min_support(1.0 - fraction, growing_support, chaos_measure),
+        PERIODIC: _find_min_support(fraction, 1.0 - growth_probability),
+        QUASI: _find_min_support(1.0 - fraction, neutral_probability, regular_measure),
+        CHAOTIC: _find_min_support(1.0 - fraction, growth_probability, chaos_measure),
     }
     kind = max(supports, key=lambda name: supports[name])
     if len(points) < MIN_POINTS or supports[kind] < MIN_CONFIDENCE:
@@ -137,7 +137,7 @@ def _compute_principal_coordinates(points: Array) -> Array:
     return np.asarray(centred @ np.linalg.svd(centred, full_matrices=False)[2][0])
 
 
-def _compute_growth_supports(exponent: float, exponent_error: float, n_returns: int) -> tuple[float, float]:
+def _compute_growth_probabilities(exponent: float, exponent_error: float, n_returns: int) -> tuple[float, float]:
     """Return the probabilities that differences grow exponentially, and that they neither grow nor decay.
 
     The exponent is normally distributed with the standard error `exponent_error`; both results are NaN if either is

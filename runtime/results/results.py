@@ -78,7 +78,7 @@ class Result(NotebookDisplay):
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
     start_row: Result | None = field(default=None, repr=False)  # the start (N = 1), where it was not requested
-    begun: State | None = field(default=None, repr=False)  # the exact state given as `start`; None: not known
+    given_start: State | None = field(default=None, repr=False)  # the exact state given as `start`; None: not known
 
     def __getitem__(self, name: str) -> Array:
         """Return the series of that name, (N,), in SI, read-only. Raises UnknownNameError with the nearest name."""
@@ -403,13 +403,14 @@ def read(path: str | os.PathLike[str]) -> Result:
 
 @dataclass(eq=False)
 class EvaluatedSamples(Result):
-    """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics.
+    """A Result whose series are computed from the fields `evaluation_fields` of an Evaluation only; it has no
+    diagnostics.
 
     Samples of several runs may follow each other. `sample_counts_of_runs` then has the number of samples of each run,
     and p the parameter values (n_runs, n_p).
     """
 
-    parts: frozenset[str] = FIELD_NAMES
+    evaluation_fields: frozenset[str] = FIELD_NAMES
     sample_counts_of_runs: tuple[int, ...] = ()
 
     @property
@@ -419,14 +420,14 @@ class EvaluatedSamples(Result):
 
     @cached_property
     def evaluation(self) -> Evaluation:
-        """The parts of the Evaluation in `parts`, computed on first access; the others have no row.
+        """An Evaluation of the fields `evaluation_fields`, computed on first access; the other fields have no row.
 
         Raises SingularError, and GudgeonError without a compiled library.
         """
         if self.compiled is None:
             raise GudgeonError("these samples cannot be evaluated: the scene has no compiled library")
         times = find_evaluation_times_of_result(self, self.compiled)
-        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, field_names=self.parts)
+        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, field_names=self.evaluation_fields)
 
 
 def make_evaluated_samples(
@@ -463,7 +464,7 @@ def make_evaluated_samples(
         work=np.full_like(work, np.nan) if source.massless_bodies else work,
         impacts=np.zeros(0, IMPACT_DTYPE),
         diagnostics=cast(Diagnostics, None),
-        parts=field_names,
+        evaluation_fields=field_names,
     )
 
 

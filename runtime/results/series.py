@@ -79,7 +79,7 @@ class Series:
     unit: str
     meaning: str
     compute: Callable[[Result], Array]
-    parts: frozenset[str] = frozenset()  # fields of an Evaluation that it needs
+    evaluation_fields: frozenset[str] = frozenset()  # fields of an Evaluation that it needs
     stored: tuple[str, int] | None = None  # (array of a Result, column) if the series is a column of it
     evaluated: tuple[str, tuple[int, ...]] | None = None  # (field of an Evaluation, column) if it is a column of it
     is_by_sample: bool = False  # computed sample by sample, so that samples of several runs may follow each other
@@ -108,7 +108,7 @@ def _build_catalogue(source: KernelSource) -> dict[str, Series]:
     for series_of in (
         _iterate_body_series,
         _iterate_point_series,
-        *(_MOTION_ALONE if source.massless_bodies else _PARTS),
+        *(_MASSLESS_SERIES_ITERATORS if source.massless_bodies else _SERIES_ITERATORS),
     ):
         series_by_name.update(series_of(source))
     for name, expression_json in source.outputs.items():
@@ -164,19 +164,19 @@ def _make_stored_series(unit: str, meaning: str, array: str, column: int) -> Ser
 
     Accelerations "a" may have to be evaluated. A column of q, v or a also gets `motion`, its body, axis and order.
     """
-    parts = frozenset({"a"} if array == "a" else ())
+    evaluation_fields = frozenset({"a"} if array == "a" else ())
     compute, is_motion = partial(_get_stored_column, array=array, column=column), array in ("q", "v", "a")
     motion = MotionSeries("qva".index(array), column % 3, column - column % 3) if is_motion else None
-    return Series(unit, meaning, compute, parts, (array, column), motion=motion)
+    return Series(unit, meaning, compute, evaluation_fields, (array, column), motion=motion)
 
 
-def _make_evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
-    """Return the series that is a column of a field of the Evaluation: `part`[:, *index].
+def _make_evaluated_series(unit: str, meaning: str, field: str, *index: int) -> Series:
+    """Return the series that is a column of a field of the Evaluation: `field`[:, *index].
 
-    For example part "reactions", index (joint, component).
+    For example field "reactions", index (joint, component).
     """
-    compute = partial(_get_evaluated_column, part=part, index=index)
-    return Series(unit, meaning, compute, frozenset({part}), None, (part, index))
+    compute = partial(_get_evaluated_column, field=field, index=index)
+    return Series(unit, meaning, compute, frozenset({field}), None, (field, index))
 
 
 def _get_stored_column(run: Result, array: str, column: int) -> Array:
@@ -193,9 +193,12 @@ def _iterate_point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
                 meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
                 body = source.bodies[point.body].index if point.body >= 0 else -1
                 motion = MotionSeries(order, axis, body, point.x, point.y, point.sign_x, point.sign_y)
-                compute, parts = partial(_compute_point_motion, motion=motion), frozenset({"a"} if order == 2 else ())
+                compute, evaluation_fields = (
+                    partial(_compute_point_motion, motion=motion),
+                    frozenset({"a"} if order == 2 else ()),
+                )
                 name, unit = f"{point.name}.{MOTION[axis][order]}", MOTION_UNITS[axis][order]
-                yield name, Series(unit, meaning, compute, parts, is_by_sample=True, motion=motion)
+                yield name, Series(unit, meaning, compute, evaluation_fields, is_by_sample=True, motion=motion)
 
 
 def _compute_point_motion(run: Result, motion: MotionSeries) -> Array:
@@ -244,9 +247,9 @@ def _iterate_reaction_series(name: str, row_index: int, force_kind: str, locatio
     for column, (component, unit, quantity) in enumerate(REACTION):
         series = _make_evaluated_series(unit, f"{force_kind} {quantity}: {location}", "reactions", row_index, column)
         yield f"{name}.{component}", series
-    compute_magnitude, parts = partial(_compute_magnitude, name=name), frozenset({"reactions"})
+    compute_magnitude, evaluation_fields = partial(_compute_magnitude, name=name), frozenset({"reactions"})
     meaning = f"{force_kind} force, magnitude: {location}"
-    yield f"{name}.F", Series("N", meaning, compute_magnitude, parts, is_by_sample=True)
+    yield f"{name}.F", Series("N", meaning, compute_magnitude, evaluation_fields, is_by_sample=True)
 
 
 def _get_body_name(source: KernelSource, body: int) -> str:
@@ -254,9 +257,9 @@ def _get_body_name(source: KernelSource, body: int) -> str:
     return source.bodies[body].name if body >= 0 else "the ground"
 
 
-def _get_evaluated_column(run: Result, part: str, index: tuple[int, ...]) -> Array:
-    """Return a column (N,) of a part of the run's Evaluation."""
-    values: Array = getattr(run.evaluation, part)[(slice(None), *index)]
+def _get_evaluated_column(run: Result, field: str, index: tuple[int, ...]) -> Array:
+    """Return a column (N,) of a field of the run's Evaluation."""
+    values: Array = getattr(run.evaluation, field)[(slice(None), *index)]
     return values
 
 
@@ -270,7 +273,10 @@ def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Serie
     and deltadot_minus.
     """
     for k, joint in enumerate(source.clearances):
-        suffix, parts = f": {'corner' if joint.is_corner else 'joint'} {joint.name} with play", frozenset({"clearance"})
+        suffix, evaluation_fields = (
+            f": {'corner' if joint.is_corner else 'joint'} {joint.name} with play",
+            frozenset({"clearance"}),
+        )
         meanings = (
             WALL_SERIES_MEANINGS
             if joint.is_corner
@@ -280,9 +286,12 @@ def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Serie
             series = _make_evaluated_series(unit, meanings.get(name, meaning) + suffix, "clearance", k, column)
             yield f"{joint.name}.{name}", series
         compute_magnitude = partial(_compute_magnitude, name=joint.name)
-        yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, compute_magnitude, parts, is_by_sample=True)
+        yield (
+            f"{joint.name}.F",
+            Series("N", meanings["F"] + suffix, compute_magnitude, evaluation_fields, is_by_sample=True),
+        )
         compute_ratio = partial(_compute_eccentricity_ratio, joint=joint)
-        yield f"{joint.name}.eps", Series("", meanings["eps"] + suffix, compute_ratio, parts)
+        yield f"{joint.name}.eps", Series("", meanings["eps"] + suffix, compute_ratio, evaluation_fields)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
         yield f"{joint.name}.state", _make_stored_series("", f"{states}{suffix}", "state", k)
         approach_speed = _make_stored_series("m/s", f"rate of penetration at the last onset{suffix}", "memory", k)
@@ -367,7 +376,7 @@ def _iterate_drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 # series in addition to motion, with masses and without
-_PARTS = (
+_SERIES_ITERATORS = (
     _iterate_joint_series,
     _iterate_clearance_series,
     _iterate_guide_series,
@@ -379,7 +388,7 @@ _PARTS = (
     _iterate_energy_series,
     _iterate_drift_series,
 )
-_MOTION_ALONE = (_iterate_element_series, _iterate_drift_series)
+_MASSLESS_SERIES_ITERATORS = (_iterate_element_series, _iterate_drift_series)
 
 
 def _compute_energy_residual(run: Result) -> Array:
@@ -409,8 +418,10 @@ def _make_output_series(
         values = expression_tree.evaluate(expression, run.value_of)
         return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
 
-    parts = frozenset(part for path in used_names if path in series_by_name for part in series_by_name[path].parts)
-    return Series(derive_unit(expression, units.get), f"output {name}", compute, parts)
+    evaluation_fields = frozenset(
+        part for path in used_names if path in series_by_name for part in series_by_name[path].evaluation_fields
+    )
+    return Series(derive_unit(expression, units.get), f"output {name}", compute, evaluation_fields)
 
 
 def make_unknown_series_error(
@@ -463,14 +474,14 @@ def choose_default_series(reference: Result) -> tuple[str, ...]:
     """
     slider_series, source = [], reference.source
     guided_bodies = [joint.second for joint in source.clearances if joint.is_corner and joint.first < 0]
-    for k in [joint.second for joint in find_rigid_guides(source) if joint.first < 0] + guided_bodies:
+    for k in [joint.second for joint in find_ideal_translational_joints(source) if joint.first < 0] + guided_bodies:
         body = source.bodies[k].name
         slider_series.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
     last_body = reference.source.bodies[-1].name
     return tuple(dict.fromkeys(slider_series)) or tuple(reference.source.outputs) or (f"{last_body}.theta",)
 
 
-def find_rigid_guides(source: KernelSource) -> list[JointInfo]:
+def find_ideal_translational_joints(source: KernelSource) -> list[JointInfo]:
     """Return the translational joints without play.
 
     The kind is a literal here, since a run from the cache does not import the joints' declarations of the generator.

@@ -320,7 +320,7 @@ def distribute_loads(
         - np.repeat(np.cumsum(cell_counts) - cell_counts, cell_counts)
     )
     fraction_left, fraction_right = (
-        _compute_fraction_below(
+        _compute_load_fraction_below(
             edge, begin[arc_indices], end[arc_indices], None if half_widths is None else half_width_cells[arc_indices]
         )
         for edge in (cell, cell + 1)
@@ -333,7 +333,7 @@ def distribute_loads(
     )
 
 
-def _compute_fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
+def _compute_load_fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
     """Return the fraction of the load of an arc from `begin` to `end` that lies below x, element by element.
 
     With `half_width` the uniform load is convolved with a parabola of that half width. None: uniform load.

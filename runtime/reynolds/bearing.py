@@ -91,11 +91,11 @@ def check_cells(cells: object, sealed: bool) -> tuple[int, int]:
         raise BadValueError(
             f"cells is {shorten_value(cells)}: expected two whole numbers, around and from the middle to an end"
         )
-    around, axial = map(int, cells)
-    if around < 32 or axial < 4 or around % 4 or axial % 4 or around * axial > MAX_CELLS:
+    n_around, n_axial = map(int, cells)
+    if n_around < 32 or n_axial < 4 or n_around % 4 or n_axial % 4 or n_around * n_axial > MAX_CELLS:
         expected = f"expected multiples of 4, at least (32, 4), and at most {MAX_CELLS} cells"
-        raise BadValueError(f"cells is ({around}, {axial}): {expected}")
-    return around, (0 if sealed else axial)
+        raise BadValueError(f"cells is ({n_around}, {n_axial}): {expected}")
+    return n_around, (0 if sealed else n_axial)
 
 
 @dataclass(frozen=True, eq=False)

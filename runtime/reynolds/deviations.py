@@ -157,12 +157,12 @@ def make_law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str |
     field_values = {option.name: values.get(option.name, option.default) for option in law.fields}
     if missing := [option.name for option in law.fields if option.required and field_values[option.name] is None]:
         raise MissingKeyError(f"film law {name}: {missing[0]} is missing")
-    numbers = {
+    parameter_values = {
         option.name: check_number(x, option.name)
         for option in law.parameters
         if (x := field_values[option.name]) is not None
     }
-    law.check_bounds(numbers)
+    law.check_bounds(parameter_values)
     selected: dict[str, Any] = {option.name: field_values[option.name] for option in law.options} | dict(
         law.also.get(name, {})
     )
@@ -172,7 +172,7 @@ def make_law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str |
             raise BadValueError(f"film law {name}: {option.name} is {selected[option.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
     dimensions = dict(zip(PAIR_QUANTITIES, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
-    function = make_law_function(law, numbers, selected, dimensions)
+    function = make_law_function(law, parameter_values, selected, dimensions)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
         """Return F_r and F_t (…, 2) in N at eccentricity ratio ε and effective velocities w_n, w_t over c (1/s)."""

@@ -205,7 +205,9 @@ def _invert_uniform_angle(values: Array, eps: float) -> Array:
 
 
 def _place_axial_nodes(fraction: Array, length: float, end_slope_ratio: float) -> tuple[Array, Array]:
-    """Return ζ from 0 to `length`, dense towards the end, and its slope by `fraction`, for fractions from 0 to 1.
+    """Return ζ from 0 to `length`, dense towards the end, and its slope dζ/ds, for fractions s (n,) from 0 to 1.
+
+    The distribution is ζ = length (1 − sinh(b (1 − s))/sinh b).
 
     end_slope_ratio: slope at the end over that of equidistant nodes; above 0.98 the nodes are equidistant.
     """

@@ -213,11 +213,11 @@ def solve_on_two_grids(
         if n not in equations_by_size:
             equations_by_size[n] = Equation(make_grid(problem.eps, problem.l_over_d, n, m, problem.groove or 0.0))
         equation = equations_by_size[n]
-        free = np.ones((n, equation.n_rows), dtype=bool)
+        free_nodes = np.ones((n, equation.n_rows), dtype=bool)
         if problem.groove is not None:
-            free[0] = False
+            free_nodes[0] = False
         start = _interpolate_unknowns(solutions[-1]) if solutions else None
-        pressure = solve_pressure(problem.cavitation, equation, problem.motion, _flatten_to_vector(free), start)
+        pressure = solve_pressure(problem.cavitation, equation, problem.motion, _flatten_to_vector(free_nodes), start)
         solutions.append(Solution(equation, problem, pressure))
     return solutions[-2:]
 

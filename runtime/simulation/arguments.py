@@ -154,7 +154,7 @@ def compute_output_times(
         raise BadValueError(f"output is {shorten_value(intervals)}: expected {OUTPUT}")
     _check_duration("t_end is", t0, end, 4 * int(intervals))
     check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
-    return _divide_evenly(t0, end, int(intervals)), True
+    return _compute_interval_ends(t0, end, int(intervals)), True
 
 
 @cache_by_values
@@ -165,10 +165,10 @@ def _compute_cached_times(source: KernelSource, t0: float, end: float, intervals
     the owner of the cache only.
     """
     min_duration = max(4 * MIN_ROUNDINGS * math.ulp(max(abs(t0), abs(end))), MIN_DURATION_S)
-    return _divide_evenly(t0, end, intervals) if min_duration < end - t0 and end <= MAX_END_TIME_S else None
+    return _compute_interval_ends(t0, end, intervals) if min_duration < end - t0 and end <= MAX_END_TIME_S else None
 
 
-def _divide_evenly(t0: float, end: float, intervals: int) -> Array:
+def _compute_interval_ends(t0: float, end: float, intervals: int) -> Array:
     """Return the ends (s) of equal intervals, bit for bit those of numpy.linspace, which takes longer for few."""
     times = np.arange(intervals + 1.0)
     times *= (end - t0) / intervals
@@ -229,7 +229,8 @@ def _check_duration(message_prefix: str, t0: float, end: float, min_roundings: i
 
 
 def find_required_variant(source: KernelSource, method: str, rtol: float | str | None, has_step: bool) -> str:
-    """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method.
+    """Return the variant of a scene that a method needs and its library lacks; "" if the library has the method,
+    or if it cannot have the stages because the scene has no Jacobian.
 
     The variant is STAGES for methods with implicit stages, or the name of a Taylor method. "auto" needs the latter at
     tolerances at which it integrates by series, without a fixed step. Without a compiler, it uses the methods of the

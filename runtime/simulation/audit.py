@@ -87,7 +87,7 @@ class SampleAudit:
         ]
         self.contact_forces = [_ContactForces() for _ in self.joints]
         self.samples = select_audit_samples_of_run(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
-        self.drawn: list[Evaluation] = []  # the evaluation of `samples`
+        self.random_evaluations: list[Evaluation] = []  # the evaluation of `samples`
         self.largest_energy = 0.0  # J
         self.first_undefined: float | None = None  # s, first sample at which an evaluated result is not finite
 
@@ -100,7 +100,7 @@ class SampleAudit:
             return
         if self.joints:
             self._update_contact_force_maxima(first, evaluation)
-        self.drawn.append(
+        self.random_evaluations.append(
             evaluation
             if len(evaluation.a) == len(self.trajectory.t)
             else select_evaluated_rows(
@@ -112,7 +112,7 @@ class SampleAudit:
         energy = float(np.abs(evaluation.energy).max(initial=0.0))
         self.largest_energy = energy if _exceeds(energy, self.largest_energy) else self.largest_energy
         if self.first_undefined is None:
-            row = _find_undefined_row(evaluation, bool(self.source.rigid_joints))
+            row = _find_first_non_finite_sample(evaluation, bool(self.source.rigid_joints))
             self.first_undefined = None if row is None else float(self.trajectory.t[first + row])
 
     def _update_contact_force_maxima(self, first: int, evaluation: Evaluation) -> None:
@@ -121,23 +121,23 @@ class SampleAudit:
         They are the maxima over all samples, over samples outside contacts (discrete state NaN) with its time, and over
         those of them that touch (|δ| of rounding size). Joints with a film or a rigid contact are left out.
         """
-        memory = self.trajectory.memory[first : first + len(evaluation.a)]
+        discrete_states = self.trajectory.memory[first : first + len(evaluation.a)]
         clearance, t_first = evaluation.clearance, float(self.trajectory.t[first])
         if not clearance[:, :, :2].any():
             for forces in self.contact_forces:
                 forces.update_maxima(0.0, t_first, 0.0, 0.0)
             return
         if len(self.joints) < clearance.shape[1]:
-            clearance, memory = clearance[:, self.joints], memory[:, self.joints]
+            clearance, discrete_states = clearance[:, self.joints], discrete_states[:, self.joints]
         force = np.hypot(clearance[:, :, CLEARANCE_Fx], clearance[:, :, CLEARANCE_Fy])
-        is_free = np.isnan(memory[:, : len(self.joints)])
-        touches = is_free & (np.abs(clearance[:, :, CLEARANCE_delta]) <= MIN_TOUCHING_PENETRATION)
-        free_force = np.where(is_free & ~touches, force, 0.0)
+        is_open = np.isnan(discrete_states[:, : len(self.joints)])
+        touches = is_open & (np.abs(clearance[:, :, CLEARANCE_delta]) <= MIN_TOUCHING_PENETRATION)
+        open_force = np.where(is_open & ~touches, force, 0.0)
         touching = np.where(touches, force, 0.0).max(axis=0).tolist()
-        worst, largest = free_force.argmax(axis=0).tolist(), force.max(axis=0).tolist()
+        argmax_open, largest = open_force.argmax(axis=0).tolist(), force.max(axis=0).tolist()
         for k, forces in enumerate(self.contact_forces):
-            t_free = float(self.trajectory.t[first + worst[k]])
-            forces.update_maxima(float(free_force[worst[k], k]), t_free, largest[k], touching[k])
+            t_open = float(self.trajectory.t[first + argmax_open[k]])
+            forces.update_maxima(float(open_force[argmax_open[k], k]), t_open, largest[k], touching[k])
 
     def build_findings(self, balance: tuple[float, float]) -> tuple[Finding, ...]:
         """Return the findings of all checks that apply to the run, after all samples; () without an audit.
@@ -157,7 +157,7 @@ class SampleAudit:
                 if t is None
                 else Finding("finite", NON_FINITE_FINDING_VALUE, t, "")
             )
-        left_out = list_checks_left_out(source, problem.method)
+        left_out = list_inapplicable_checks(source, problem.method)
         findings += [finding for finding in self._check_random_samples(size) if finding.check not in left_out]
         return tuple(findings)
 
@@ -171,10 +171,10 @@ class SampleAudit:
         trajectory = self.trajectory
         for k, forces in zip(self.joints, self.contact_forces, strict=True):
             name, peak = self.source.clearances[k].name, float(trajectory.peaks[k, PEAK_F])
-            largest = max(peak, forces.largest)
-            yield Finding("sample", forces.free / max(OPEN_FORCE_TOL * largest, 1e-300), forces.t_free, name)
-            begins_free = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
-            if not (peak > forces.touching and begins_free):
+            largest = max(peak, forces.max_all)
+            yield Finding("sample", forces.max_open / max(OPEN_FORCE_TOL * largest, 1e-300), forces.t_open, name)
+            begins_open = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
+            if not (peak > forces.max_touching and begins_open):
                 continue
             contacts = trajectory.impacts[trajectory.impacts["joint"] == k]
             if np.isfinite(contacts["t_off"]).all():
@@ -190,14 +190,14 @@ class SampleAudit:
         of motion of single bodies are checked there too.
         """
         compiled, problem, trajectory, samples = self.compiled, self.problem, self.trajectory, self.samples
-        memory = trajectory.memory[samples] if compiled.n_discrete_states else np.full((len(samples), 1), np.nan)
+        discrete_states = trajectory.memory[samples] if compiled.n_discrete_states else np.full((len(samples), 1), np.nan)
         t, q = trajectory.t[samples], trajectory.q[samples]
         errors = np.zeros((len(samples), len(LIMITS)))
-        given = [compiled.pointer(values) for values in (t, q, trajectory.v[samples], memory, problem.p)]
+        given = [compiled.pointer(values) for values in (t, q, trajectory.v[samples], discrete_states, problem.p)]
         compiled.lib.gudgeon_audit_samples(len(samples), *given, size, compiled.pointer(errors, is_written=True))
         limits, body = LIMITS, ""
         if problem.audit > 1 or trajectory.counts.right_hand_sides > MIN_CALLS_OF_LONG_RUN:
-            residuals = compute_newton_euler_residuals(compiled, problem.p, q, self._join_drawn_evaluations())
+            residuals = compute_newton_euler_residuals(compiled, problem.p, q, self._join_random_evaluations())
             errors, limits = np.column_stack([errors, residuals.max(axis=1)]), LIMITS | BODY_LIMIT
             body = compiled.source.bodies[int(residuals.max(axis=0).argmax())].name
         times, findings = t.tolist(), []
@@ -209,16 +209,21 @@ class SampleAudit:
             )
         return tuple(findings)
 
-    def _join_drawn_evaluations(self) -> Evaluation:
-        """Return the evaluation of all pseudo-random samples, joined from the blocks of `add_samples`."""
-        if len(self.drawn) == 1:
-            return select_evaluated_rows(self.drawn[0], self.samples)
+    def _join_random_evaluations(self) -> Evaluation:
+        """Return the evaluation of all pseudo-random samples, joined from the blocks of `add_samples`.
+
+        A single block of all samples contains others too; its pseudo-random samples are selected.
+        """
+        if len(self.random_evaluations) == 1:
+            return select_evaluated_rows(self.random_evaluations[0], self.samples)
         return Evaluation(
-            *map(np.concatenate, zip(*(vars(evaluation).values() for evaluation in self.drawn), strict=True))
+            *map(
+                np.concatenate, zip(*(vars(evaluation).values() for evaluation in self.random_evaluations), strict=True)
+            )
         )
 
 
-def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Array) -> NDArray[np.bool_]:
+def find_deviating_starts(source: KernelSource, p: Array, start: Array, size: Array) -> NDArray[np.bool_]:
     """Return a mask (n,) of runs whose computed start differs from the file's `start.set` by more than START_TOL.
 
     Whole turns count as differences here, so a run may be reported without a fault. Shapes: parameter values p (n, …),
@@ -238,6 +243,8 @@ def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
 def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -> Iterator[Finding]:
     """Yield a finding on the first sample: its difference from the computed start, and that of the start from the file.
 
+    Its value is the larger of the differences of positions and of velocities, each over its tolerance.
+
     Yields nothing for resumed runs, whose states may violate the constraints, and with rigid contacts, which may change
     the start. `size`: of the mechanism (m).
     """
@@ -246,10 +253,15 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     states = np.array((problem.q, problem.v, trajectory.q[0], trajectory.v[0]))  # of bodies: x, y, theta
     states[2:] -= states[:2]
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
-    far, fast, distance, slower = (max(max_x, max_y, size * angle) for max_x, max_y, angle in largest)
+    max_position, max_velocity, distance, velocity_difference = (
+        max(max_x, max_y, size * angle) for max_x, max_y, angle in largest
+    )
     distance = max(distance, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
-    worst = max(distance / (START_TOL * (size + far)), slower / max(START_RATES_TOL * fast, 1e-300))
-    yield Finding("start", worst, float(trajectory.t[0]), "")
+    ratio = max(
+        distance / (START_TOL * (size + max_position)),
+        velocity_difference / max(START_RATES_TOL * max_velocity, 1e-300),
+    )
+    yield Finding("start", ratio, float(trajectory.t[0]), "")
 
 
 def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array, size: float) -> float:
@@ -259,9 +271,9 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
     """
     distance = 0.0
     for k, given in list_given_coordinates(source):
-        miss = abs(float(q[k] - p[given]))
-        turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
-        distance = max(distance, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
+        difference = abs(float(q[k] - p[given]))
+        turns = round(difference / math.tau) * math.tau if k % 3 == 2 else 0.0
+        distance = max(distance, abs(difference - turns) * (size if k % 3 == 2 else 1.0))
     return distance
 
 
@@ -313,37 +325,37 @@ def _estimate_kinetic_energy(compiled: CompiledModel, problem: Problem, trajecto
     return 0.5 * float(compiled.mass(problem.p)[::3].sum()) * speed * speed
 
 
-def _find_undefined_row(evaluation: Evaluation, has_rigid_contacts: bool) -> int | None:
+def _find_first_non_finite_sample(evaluation: Evaluation, has_rigid_contacts: bool) -> int | None:
     """Return the index of the first sample at which an evaluated result is not finite; None if all are finite.
 
     Clearance forces are left out with rigid contacts, whose forces are not computed again at samples.
     """
-    parts = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
-    parts += [] if has_rigid_contacts else [evaluation.clearance[:, :, :2]]
-    if all(math.isfinite(np.add.reduce(part, axis=None)) for part in parts if part.size):
+    fields = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
+    fields += [] if has_rigid_contacts else [evaluation.clearance[:, :, :2]]
+    if all(math.isfinite(np.add.reduce(field, axis=None)) for field in fields if field.size):
         return None
-    is_finite = np.all([np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts], axis=0)
+    is_finite = np.all([np.isfinite(field.reshape(len(field), -1)).all(axis=1) for field in fields], axis=0)
     return None if is_finite.all() else int(is_finite.argmin())
 
 
 class _ContactForces:
     """Hold the largest contact forces (N) of a joint at the samples so far; NaN once one of them is NaN.
 
-    `free`: at samples outside contacts, where the force must be zero; `t_free`: time (s) of the first such largest
-    force. `touching`: at samples outside contacts whose penetration is zero within MIN_TOUCHING_PENETRATION.
-    `largest`: at all samples.
+    `max_open`: at samples outside contacts, where the force must be zero; `t_open`: time (s) of the first such
+    maximum. `max_touching`: at samples outside contacts whose penetration is zero within MIN_TOUCHING_PENETRATION.
+    `max_all`: at all samples.
     """
 
     def __init__(self) -> None:
-        self.free = self.largest = self.touching = -math.inf
-        self.t_free = math.nan
+        self.max_open = self.max_all = self.max_touching = -math.inf
+        self.t_open = math.nan
 
-    def update_maxima(self, free: float, t_free: float, largest: float, touching: float) -> None:
+    def update_maxima(self, max_open: float, t_open: float, max_all: float, max_touching: float) -> None:
         """Update the maxima by those of the next samples, which have the same names as the attributes."""
-        if _exceeds(free, self.free):
-            self.free, self.t_free = free, t_free
-        self.largest = largest if _exceeds(largest, self.largest) else self.largest
-        self.touching = touching if _exceeds(touching, self.touching) else self.touching
+        if _exceeds(max_open, self.max_open):
+            self.max_open, self.t_open = max_open, t_open
+        self.max_all = max_all if _exceeds(max_all, self.max_all) else self.max_all
+        self.max_touching = max_touching if _exceeds(max_touching, self.max_touching) else self.max_touching
 
 
 def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:
@@ -353,22 +365,22 @@ def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> N
     the audit, is "full". A run with fewer samples is checked at all of them.
     """
     is_short = audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
-    drawn = SHORT_RUN_POSITIONS if is_short else SAMPLE_POSITIONS
-    return (n_samples * drawn).astype(np.intp) if len(drawn) < n_samples else np.arange(n_samples)
+    positions = SHORT_RUN_POSITIONS if is_short else SAMPLE_POSITIONS
+    return (n_samples * positions).astype(np.intp) if len(positions) < n_samples else np.arange(n_samples)
 
 
-def list_checks_left_out(source: KernelSource, method: str) -> set[str]:
+def list_inapplicable_checks(source: KernelSource, method: str) -> set[str]:
     """Return the names of the sample checks that do not apply to the scene with this method.
 
     Without masses or with undetermined reactions, forces and powers are not known. With rk4 in the full formulation,
     the constraint equations drift.
     """
-    left_out = set[str]()
+    names = set[str]()
     if source.massless_bodies or source.indeterminate:
-        left_out |= {"body", "power", "torque"}
+        names |= {"body", "power", "torque"}
     if method == "rk4" and source.formulation == "full":
-        left_out |= {"rows", "rates", "power", "body"}
-    return left_out
+        names |= {"rows", "rates", "power", "body"}
+    return names
 
 
 def _exceeds(value: float, largest: float) -> bool:

@@ -85,7 +85,7 @@ def _yield_repetitions(
     """
     own_start, has_end = build_start_state(run), math.isfinite(requested_end)
     times = np.append(t, requested_end) if has_end else t
-    for start in (None, own_start) if own_start.t == 0.0 and run.begun is None else (own_start,):
+    for start in (None, own_start) if own_start.t == 0.0 and run.given_start is None else (own_start,):
         try:
             repetition = repeat_run(simulation, times, start, settings, progress, peaks, has_end)
         except GudgeonError:  # for example a start that violates the constraint equations
@@ -154,7 +154,7 @@ def repeat_run_exactly(
     )
     for repetition in (
         x
-        for exact_settings in _yield_exact_settings(settings)
+        for exact_settings in _yield_exact_repeat_settings(settings)
         for x in _yield_repetitions(simulation, run, t, exact_settings, progress, peaks, requested_end)
     ):
         if repetition.t[-1] != t[-1]:  # its last event has moved
@@ -165,7 +165,7 @@ def repeat_run_exactly(
     return None
 
 
-def _yield_exact_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _yield_exact_repeat_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the arguments of simulate that may repeat the run exactly.
 
     For methods that "auto" chooses between, the adaptive method comes first, then `settings` as it is.
@@ -393,7 +393,12 @@ def _estimate_errors(
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
     is_compared = run.t <= until
-    names = [name for watched in choose_default_series(run) for name in (watched, *find_rate_names(watched)) if name]
+    names = [
+        name
+        for default_name in choose_default_series(run)
+        for name in (default_name, *find_rate_names(default_name))
+        if name
+    ]
     results = []
     for name in dict.fromkeys([*names, *(f"{joint.name}.F" for joint in run.source.clearances)]):
         differences = np.abs(accurate_run[name] - run[name])[is_compared]

@@ -32,10 +32,11 @@ class FileStart:
 def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
     """Return the start that the file describes, cached for equal parameter values; callers must not change it.
 
-    Raises AssemblyError if the linkage does not close, or if an equation that was redundant is not with these values.
+    Notes name contacts that are closed without an onset. Raises AssemblyError if the linkage does not close, if a
+    journal lies outside its bearing, or if an equation that was redundant is not with these values.
     """
     check_journal_positions(compiled, p)
-    start, deviations = _close_linkage(compiled, p)
+    start, deviations = _assemble_cached_start(compiled, p)
     no_contacts, source = np.full(compiled.n_discrete_states, np.nan), compiled.source
     # a journal without a start position in the file begins in the centre of its bearing
     may_touch = bool(source.eccentricity_equations) or any(joint.is_corner for joint in source.clearances)
@@ -50,7 +51,7 @@ def _select_start_values(compiled: CompiledModel, p: Array) -> tuple[Array]:
 
 
 @cache_selected_values(_select_start_values)
-def _close_linkage(compiled: CompiledModel, p: Array) -> tuple[Start, Mapping[str, float]]:
+def _assemble_cached_start(compiled: CompiledModel, p: Array) -> tuple[Start, Mapping[str, float]]:
     """Return the assembled start and its deviations from guesses, cached for equal values of those that both read.
 
     Raises AssemblyError.

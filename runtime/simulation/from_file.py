@@ -21,7 +21,7 @@ from gudgeon.loading.kernel_sources import (
 )
 from gudgeon.loading.optimized_library import may_compile_in_background
 from gudgeon.waiting.ctrl_c import EndingSignals
-from gudgeon.waiting.imports import RUNTIME, import_modules_completely
+from gudgeon.waiting.imports import RUNTIME, import_modules_in_thread
 
 if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
@@ -97,11 +97,11 @@ def load_bytes(
         )
         have_source = perf_counter()
         if ahead.is_busy:
-            import_modules_completely(*RUNTIME)  # while compilers are at work
+            import_modules_in_thread(*RUNTIME)  # while compilers are at work
         library = compile_kernels(source, portable=portable, rebuild=regenerate, background=ahead, quick=quick)
     have_library = perf_counter()
 
-    import_modules_completely(*RUNTIME)
+    import_modules_in_thread(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
     from gudgeon.model.reference import check_reference_values
     from gudgeon.simulation.simulation import Simulation

@@ -245,7 +245,9 @@ def _find_first_discontinuity(
 def _compute_curvature_ratio(
     source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, pad_mode: Any = "edge"
 ) -> Array:
-    """Return the ratio (N_GRID_INTERVALS − 1,) of a drive's second differences on a grid to the median around them.
+    """Return the ratio (N_GRID_INTERVALS − 1,) of a drive's second differences on a grid to the median of 17 of them.
+
+    Rounding errors, 1e-14 of the largest value, are added to the median.
 
     `pad_mode`: how the differences are continued past the ends t0, t1 (mode of numpy.pad).
     """

@@ -101,7 +101,7 @@ def compute_lyapunov_exponent(
         t_end = end_or_run
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
-    reason = _explain_second_run(source, check_text(by, "by"))
+    reason = _find_reason_for_second_run(source, check_text(by, "by"))
     settings = _add_default_rtol(settings, reason is not None)
     arguments_of_start = _compute_settled_start(simulation, skip, settings, parameters, start)
     measured_run = simulation.simulate(
@@ -201,7 +201,7 @@ def _yield_intervals(
             progress((t - begin) / (end - begin), "integrating a neighbouring state")
 
 
-def _explain_second_run(source: KernelSource, method: str) -> str | None:
+def _find_reason_for_second_run(source: KernelSource, method: str) -> str | None:
     """Return the reason for a second run ("" if the user requested it); None if the tangent is used.
 
     `method`: argument `by` of Simulation.lyapunov. Raises BadValueError for an unknown one, and for "tangent" where the
@@ -348,18 +348,18 @@ class SectionReturns:
         p = run.p if not hasattr(run, "all") else run.all.p
         angle = find_angles(source)
         scale = np.where(angle, 1.0, self.size)
-        parts = [
+        columns = [
             run.q[:, ~angle] / self.size,
             np.cos(run.q[:, angle]),
             np.sin(run.q[:, angle]),
             run.v / scale * (self.size / self.speed),
         ]
-        parts += [
+        columns += [
             (run[f"{joint.name}.{axis}"] / p[joint.clearance])[:, None]
             for joint in source.clearances
             for axis in ("ex", "ey")
         ]
-        return np.concatenate(parts, axis=1)
+        return np.concatenate(columns, axis=1)
 
 
 def _parse_section(run: Result, section: str | float | None) -> tuple[str, float]:

@@ -98,8 +98,9 @@ class DifferenceNorm:
         return y + difference
 
     def project_on_flow(self, difference: Array, flow: Array) -> float:
-        """Return the scaled component of a difference (2n,) along the motion's direction `flow` = (q̇, q̈); 0
-        without motion.
+        """Return the coefficient of the motion's direction `flow` = (q̇, q̈) in a difference (2n,), 0 without motion.
+
+        The difference less the coefficient times `flow` is perpendicular to `flow` in scaled variables.
         """
         w = self.scales
         length = float(np.sum(np.square(flow / w)))
@@ -132,7 +133,7 @@ class SecondRun:
     """
 
     simulation: Simulation
-    measure: DifferenceNorm
+    norm: DifferenceNorm
     settings: dict[str, Any]
     state: State
     transverse: bool
@@ -144,9 +145,9 @@ class SecondRun:
 
         Called again after both runs have merged.
         """
-        first = self.measure.draw_neighbour(self.state.t, flatten_state(self.state))
+        first = self.norm.draw_neighbour(self.state.t, flatten_state(self.state))
         self.neighbour_state = _replace_state_vector(self.state, first, self.state.memory.copy())
-        self.distance = self.measure.compute_norm(first - flatten_state(self.state))
+        self.distance = self.norm.compute_norm(first - flatten_state(self.state))
 
     def advance_to(self, t: float, is_shortest_interval: bool) -> tuple[Result, float] | None:
         """Advance both runs to t (s); return the first run and ln of the growth of their distance.
@@ -167,8 +168,8 @@ class SecondRun:
         difference = flatten_state(neighbour) - flatten_state(run.final)
         if self.transverse:
             flow = np.concatenate([run.v[-1], run.a[-1]])
-            difference -= self.measure.project_on_flow(difference, flow) * flow
-        distance = self.measure.compute_norm(difference)
+            difference -= self.norm.project_on_flow(difference, flow) * flow
+        distance = self.norm.compute_norm(difference)
         if distance <= MERGED_DISTANCE * INITIAL_DISTANCE:
             log_growth = math.log(MERGED_DISTANCE * INITIAL_DISTANCE / self.distance)
             self.state, self.n_merged = run.final, self.n_merged + 1
@@ -191,7 +192,7 @@ class SecondRun:
         Internal states are scaled alike, and the new state is projected onto the constraints.
         """
         s, y = INITIAL_DISTANCE / self.distance, flatten_state(self.state)
-        neighbour = self.measure.project_state(self.state.t, y + s * difference)
+        neighbour = self.norm.project_state(self.state.t, y + s * difference)
         discrete_states = self.state.memory + s * (self.neighbour_state.memory - self.state.memory)
         self.neighbour_state = _replace_state_vector(self.neighbour_state, neighbour, discrete_states)
-        self.distance = self.measure.compute_norm(neighbour - y)
+        self.distance = self.norm.compute_norm(neighbour - y)

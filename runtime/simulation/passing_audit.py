@@ -23,7 +23,7 @@ from gudgeon.simulation.audit import (
     MIN_SAMPLES,
     check_energy_balance,
     has_failed_finding,
-    list_checks_left_out,
+    list_inapplicable_checks,
     select_audit_samples,
 )
 from gudgeon.simulation.sample_checks import compute_energy_balance
@@ -43,13 +43,13 @@ def passes_audit(problem: Problem, trajectory: Trajectory, times: Array) -> bool
     The result is False for audit="full", for a contact or film force at any sample, and for values that are not finite.
     Without an audit, it is True if all samples can be evaluated.
     """
-    x, compiled, n_samples, block = trajectory, problem.compiled, len(times), trajectory.block
+    compiled, n_samples, block = problem.compiled, len(times), trajectory.block
     if not (
         block is not None
         and 0 < n_samples <= MAX_SAMPLES
-        and x.stopped is None
+        and trajectory.stopped is None
         and problem.progress is None
-        and not x.interrupted
+        and not trajectory.interrupted
         and compiled.has_all_forces
     ):
         return False
@@ -73,12 +73,12 @@ def passes_audit(problem: Problem, trajectory: Trajectory, times: Array) -> bool
         checks.limits if is_audited else ffi.NULL,
         max(size[0], 1e-300),
         ffi.NULL if is_resumed or compiled.source.rigid_joints else start,
-        *checks.drawn,
+        *checks.sample_indices,
     )
     if not (passes and is_audited and n_samples >= MIN_SAMPLES):
         return bool(passes)
-    balance, largest = compute_energy_balance(energies, x.work, lambda: None), float(np.abs(energies).max())
-    findings = check_energy_balance(compiled, problem, x, largest, balance, max(size[0], 1e-300))
+    balance, largest = compute_energy_balance(energies, trajectory.work, lambda: None), float(np.abs(energies).max())
+    findings = check_energy_balance(compiled, problem, trajectory, largest, balance, max(size[0], 1e-300))
     return not has_failed_finding(tuple(findings))
 
 
@@ -86,18 +86,23 @@ class _Checks(NamedTuple):
     """Hold arguments of gudgeon_check_samples that do not depend on the values of a run."""
 
     limits: Any  # pointer to the errors at which runs fail; infinity for checks that are left out
-    drawn: tuple[int, Any]  # number of samples that are drawn, and pointer to their indices
+    sample_indices: tuple[int, Any]  # number of pseudo-random samples, and pointer to their indices
     arrays: tuple[NDArray[Any], ...]  # to which the pointers point
 
 
 @cache_by_values
 def _prepare_checks(compiled: CompiledModel, n_samples: int, method: str, is_short: bool, is_resumed: bool) -> _Checks:
-    """Return limits and drawn samples of a run with `n_samples` samples; `is_short`: it has few right-hand sides.
+    """Return limits and pseudo-random samples of a run with `n_samples` samples; `is_short`: it has few right-hand
+    sides.
 
     The first sample of a resumed run is left out, whose state may violate the constraints.
     """
-    left_out = list_checks_left_out(compiled.source, method)
+    left_out = list_inapplicable_checks(compiled.source, method)
     limits = np.array([np.inf if check in left_out else AUDIT_FAILS * limit for check, limit in LIMITS.items()])
-    drawn = select_audit_samples(n_samples, AUDIT_ON, 0 if is_short else MIN_CALLS_OF_LONG_RUN).astype(np.int_)
-    drawn = drawn[drawn > 0] if is_resumed and n_samples > 1 else drawn
-    return _Checks(compiled.pointer(limits), (len(drawn), compiled.pointer(drawn, "long *")), (limits, drawn))
+    sample_indices = select_audit_samples(n_samples, AUDIT_ON, 0 if is_short else MIN_CALLS_OF_LONG_RUN).astype(np.int_)
+    sample_indices = sample_indices[sample_indices > 0] if is_resumed and n_samples > 1 else sample_indices
+    return _Checks(
+        compiled.pointer(limits),
+        (len(sample_indices), compiled.pointer(sample_indices, "long *")),
+        (limits, sample_indices),
+    )

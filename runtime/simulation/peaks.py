@@ -28,7 +28,9 @@ from gudgeon.simulation.step_observers import ComparedScene, Observation
 NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))
 # matrix from values at the points to Chebyshev coefficients
 COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))
-FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # matrix from coefficients to values at 129 points
+VALUES_FROM_CHEBYSHEV = chebvander(
+    np.linspace(-1.0, 1.0, 129), len(NODES) - 1
+)  # matrix from coefficients to values at 129 points
 # largest number of refinements of a maximum, and that of a maximum at an end of its interval
 MAX_REFINEMENTS, MAX_REFINEMENTS_AT_END = 12, 3
 MAX_INTERVALS = 16  # intervals of a block that are searched; those with the largest estimates first
@@ -238,7 +240,7 @@ def _find_polynomial_maximum(coefficients: Array) -> tuple[float, float]:
 
     The maximum is found on 129 points and refined by a parabola.
     """
-    fine = FINE @ coefficients
+    fine = VALUES_FROM_CHEBYSHEV @ coefficients
     k = int(fine.argmax())
     position = k / (len(fine) - 1)
     if 0 < k < len(fine) - 1:

@@ -224,8 +224,8 @@ def _compute_perturbation_sizes(simulation: Simulation, run: Result) -> Array:
 
 def build_start_state(run: Result) -> State:
     """Return the start of a run as a state to resume from: the state that it resumed, else its first sample."""
-    if run.begun is not None:
-        return replace(run.begun, parameters=run.final.parameters)
+    if run.given_start is not None:
+        return replace(run.given_start, parameters=run.final.parameters)
     run = run.start_row or run
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
 

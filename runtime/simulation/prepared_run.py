@@ -67,14 +67,17 @@ class RunSetup:
     columns: ParameterColumns
 
     @staticmethod
-    def check(
+    def from_arguments(
         simulation: Simulation,
         names: str | Iterable[str],
         series: str | Iterable[str],
         fixed: Mapping[str, float | str] | None,
         settings: dict[str, Any],
     ) -> RunSetup:
-        """Check the arguments and return them; `settings`: method, rtol, step, stop and audit. Raises InputError.
+        """Check the arguments and build the setup. Raises InputError.
+
+        `names`: of the parameters that each run sets; `series`: names of the series that it returns. `settings`:
+        method, rtol, step, stop and audit; the method is chosen by select_method.
 
         Waits until the optimized library of the scene is compiled. `fixed` None: no fixed parameters.
         """
@@ -152,7 +155,7 @@ class PreparedRun:
     def __init__(self, simulation: Simulation, arguments: dict[str, Any]) -> None:
         self._simulation, self._lock = simulation, Lock()
         names = ("method", "rtol", "step", "stop", "audit")
-        setup = self._setup = RunSetup.check(
+        setup = self._setup = RunSetup.from_arguments(
             simulation,
             arguments["parameters"],
             arguments["series"],
@@ -246,7 +249,7 @@ class PreparedRun:
         assert self._run
         if self._has_variable_times:
             t, _ = self._compute_times(k)
-            self._t[:] = _check_count(t, len(self._t))
+            self._t[:] = _check_sample_count(t, len(self._t))
         if self._has_variable_step:
             self._run.arrays["step"][k] = self._setup.evaluate_step(k, float(self._t[-1] - self._t[0]))
 
@@ -290,7 +293,7 @@ class PreparedRun:
             raise KeyboardInterrupt
         if self._has_variable_times and self._run is None:
             self._setup.columns.compute_values_of_row(x, 0)
-            self._t[:] = _check_count(self._compute_times(0)[0], len(self._t))
+            self._t[:] = _check_sample_count(self._compute_times(0)[0], len(self._t))
         self.extremes = np.array([[peak.min, peak.max] for peak in map(result.peak, self._peaks)]).reshape(-1, 2)
         return _pad_series(result, self.series, len(self._t) - self._n_skipped)
 
@@ -319,7 +322,7 @@ class PreparedRun:
             raise KeyboardInterrupt
         self.failures |= {int(indices[failure.run]): failure.error for failure in batch.failures}
         for j, name in enumerate(self.series):
-            values[indices, j] = _check_count(np.moveaxis(batch[name], -1, 0), values.shape[-1]).T
+            values[indices, j] = _check_sample_count(np.moveaxis(batch[name], -1, 0), values.shape[-1]).T
         for j, name in enumerate(self._peaks):
             extremes = batch.peak(name)
             self.extremes[indices, j, 0], self.extremes[indices, j, 1] = extremes.min, extremes.max
@@ -327,7 +330,7 @@ class PreparedRun:
         return values
 
 
-def _check_count(samples: Array, n_samples: int) -> Array:
+def _check_sample_count(samples: Array, n_samples: int) -> Array:
     """Return samples (n_samples, …); raise BadValueError if their number differs, because it depends on parameters."""
     if len(samples) != n_samples:
         message = f"output: {len(samples)} samples with these parameter values, {n_samples} when the run was prepared"

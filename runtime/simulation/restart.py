@@ -207,8 +207,11 @@ class FileParameters(NamedTuple):
     notes: tuple[str, ...]
 
 
-def _select_floats(compiled: CompiledModel, parameters: Any) -> tuple[Any, ...]:
-    """Return the key of a dictionary of floats: names and bits of the values; of other arguments one without a hash."""
+def _build_parameters_key(compiled: CompiledModel, parameters: Any) -> tuple[Any, ...]:
+    """Return the cache key of given parameters: names and bytes of the values of a dictionary of floats, () for None.
+
+    Other arguments get a key without a hash, so that their values are not cached.
+    """
     if parameters is None:
         return ()
     if type(parameters) is dict and {float}.issuperset(map(type, parameters.values())):
@@ -216,7 +219,7 @@ def _select_floats(compiled: CompiledModel, parameters: Any) -> tuple[Any, ...]:
     return ([],)
 
 
-@cache_selected_values(_select_floats)
+@cache_selected_values(_build_parameters_key)
 def read_file_parameters(compiled: CompiledModel, parameters: Mapping[str, Any] | None) -> FileParameters:
     """Return the parameters of a run from the file's start, cached for equal floats. Raises InputError."""
     given, is_given, notes = merge_parameters(compiled, None, parameters)
@@ -290,14 +293,14 @@ def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], boo
     is_length = np.array([row.unit == "m" for row in rows], dtype=bool)
     known_size, limits = math.nan, np.zeros(len(rows))
 
-    def fits_constraints(phi: Array, size: float) -> bool:
+    def satisfies_constraints(phi: Array, size: float) -> bool:
         """Return whether no residual exceeds its limit; NaN does."""
         nonlocal known_size, limits
         if size != known_size:
             known_size, limits = size, MAX_VIOLATION * np.where(is_length, size, 1.0)
         return b"\0" not in (np.abs(phi.take(indices)) <= limits).tobytes()  # quicker than all()
 
-    return fits_constraints
+    return satisfies_constraints
 
 
 def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:

@@ -1,4 +1,6 @@
-"""Build the Result of a finished run from samples and counts, with diagnostics and notes; quickly after Ctrl-C."""
+"""Build the Result of a finished run from samples and counts, with diagnostics and notes; after Ctrl-C without slow
+ones.
+"""
 
 from __future__ import annotations
 
@@ -60,14 +62,14 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: Checke
     Quantities that do not apply are NaN, such as the step of an adaptive method. For "auto", the method's name lists
     the methods that made steps.
     """
-    compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
+    compiled, method, counts = problem.compiled, problem.method, trajectory.counts
     residual, throughput = checked.balance if checked else (math.nan, math.nan)
-    findings = (*x.audit, *checked.findings) if checked else x.audit
+    findings = (*trajectory.audit, *checked.findings) if checked else trajectory.audit
     duration, step, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
     if math.isfinite(step) and duration > 0.0:
         last = compute_last_step(duration, step)
         step = max(last, min(step, duration))
-    simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
+    simulated = float(trajectory.t[-1] - trajectory.t[0]) if len(trajectory.t) else 0.0
     if method == ADAPTIVE:
         methods = [select(compiled.source, problem.rtol) for select in (select_explicit_method, select_stiff_method)]
         method = "+".join(methods) if 0 < counts.stiff_steps < counts.steps else methods[counts.stiff_steps > 0]
@@ -76,7 +78,7 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: Checke
         step=step if math.isfinite(problem.step) else math.nan,
         steps=counts.steps,
         last_step=last if last != step else math.nan,
-        t_end=float(problem.t[-1]) if len(x.t) and x.t[-1] < problem.t[-1] else math.nan,
+        t_end=float(problem.t[-1]) if len(trajectory.t) and trajectory.t[-1] < problem.t[-1] else math.nan,
         rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
         rejected=counts.rejected,
         stiff_steps=counts.stiff_steps,
@@ -90,10 +92,10 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: Checke
         ratio_min=counts.ratio_min,
         ratio_max=counts.ratio_max,
         ratio_outside=counts.ratio_outside,
-        peaks=_build_peaks(compiled, x),
-        seconds=x.seconds,
-        seconds_per_simulated_second=x.seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted,
+        peaks=_build_peaks(compiled, trajectory),
+        seconds=trajectory.seconds,
+        seconds_per_simulated_second=trajectory.seconds / simulated if simulated > 0 else math.nan,
+        interrupted=trajectory.interrupted,
         notes=_build_notes(compiled, problem, trajectory, findings) + (checked.notes if checked else ()),
         audit=findings,
     )
@@ -291,19 +293,22 @@ def build_result(
     is left out after MAX_BALANCE_TIME_S seconds. It is stored with the Result of a short run. A start that is not a
     requested sample is removed from the samples.
     """
-    compiled, x, is_unsolvable = problem.compiled, _clear_undefined_works(problem.compiled, trajectory), False
+    compiled, is_unsolvable = problem.compiled, False
+    trajectory = _clear_undefined_works(compiled, trajectory)
     checked: CheckedSamples | None = None
     try:
         is_left_limit_needed = compiled.may_drive_acceleration_jump
-        times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p) if is_left_limit_needed else x.t
+        times = trajectory.t
+        if is_left_limit_needed:
+            times = find_evaluation_times(compiled, times, trajectory.q, trajectory.v, problem.p)
         problem.poll_cancellation()
-        if passes_audit(problem, x, times):
+        if passes_audit(problem, trajectory, times):
             values = {"compiled": compiled, "source": compiled.source, "given": given, "is_given": is_given}
-            values |= {"stored": {}, "start_row": None, "begun": problem.resumed_state}
-            result = make_with_deferred_fields(Result, values, _PassingParts(problem, x, times))
+            values |= {"stored": {}, "start_row": None, "given_start": problem.resumed_state}
+            result = make_with_deferred_fields(Result, values, _DeferredFieldsOfPassingRun(problem, trajectory, times))
             return result if problem.start_is_sample else split_off_start(result)
-        poll = _make_poll_function(problem, x.interrupted, is_time_limited)
-        checked = check_samples(problem, x, times, poll)
+        poll = _make_poll_function(problem, trajectory.interrupted, is_time_limited)
+        checked = check_samples(problem, trajectory, times, poll)
     except SolverError:
         is_unsolvable = True
     except (
@@ -312,34 +317,34 @@ def build_result(
     ):  # the samples are there; what follows from them is evaluated on request
         pass
     except KeyboardInterrupt:
-        x = replace(x, interrupted=True)
-    is_nan = x.a is None and is_unsolvable
+        trajectory = replace(trajectory, interrupted=True)
+    is_nan = trajectory.a is None and is_unsolvable
     values = {
         "compiled": compiled,
         "source": compiled.source,
         "p": problem.p.copy(),
         "given": given,
         "is_given": is_given,
-        "t": x.t,
-        "q": x.q,
-        "v": x.v,
-        "state": x.state,
-        "memory": x.memory,
-        "work": x.work,
-        "impacts": x.impacts,
-        "accelerations": np.full_like(x.q, np.nan) if is_nan else checked.a if checked else x.a,
-        "diagnostics": _build_diagnostics(problem, x, checked),
+        "t": trajectory.t,
+        "q": trajectory.q,
+        "v": trajectory.v,
+        "state": trajectory.state,
+        "memory": trajectory.memory,
+        "work": trajectory.work,
+        "impacts": trajectory.impacts,
+        "accelerations": np.full_like(trajectory.q, np.nan) if is_nan else checked.a if checked else trajectory.a,
+        "diagnostics": _build_diagnostics(problem, trajectory, checked),
         "stored": {},
         "start_row": None,
-        "begun": problem.resumed_state,
+        "given_start": problem.resumed_state,
     }
     if checked and checked.evaluation:
         values["evaluation"] = checked.evaluation  # a cached property: not computed again
-    result = make_with_deferred_fields(Result, values, _ResultParts(problem, x))
+    result = make_with_deferred_fields(Result, values, _DeferredFields(problem, trajectory))
     return result if problem.start_is_sample else split_off_start(result)
 
 
-class _ResultParts:
+class _DeferredFields:
     """Build fields of a Result at their first access, for make_with_deferred_fields."""
 
     fields: tuple[str, ...] = ("events", "event_states", "trace", "provenance")
@@ -367,13 +372,13 @@ class _ResultParts:
 _COPIED = ("t", "q", "v", "state", "memory", "work", "impacts")  # arrays of a trajectory
 
 
-class _PassingParts(_ResultParts):
+class _DeferredFieldsOfPassingRun(_DeferredFields):
     """Build fields of a Result whose samples pass the audit: arrays are copies, as the caller may change them before
     the diagnostics are built. `times` (N,): times (s) at which the samples are evaluated.
     """
 
     fields = (
-        *_ResultParts.fields,
+        *_DeferredFields.fields,
         *_COPIED,
         *("p", "evaluation", "accelerations", "diagnostics"),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial.legendre import legder, legfit, leggauss, legint, legval, legvander
@@ -19,7 +19,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 from gudgeon.model.evaluation import FIELD_NAMES, compute_rounding_distance
-from gudgeon.results.batch import depends_on_works, find_evaluation_parts
+from gudgeon.results.batch import depends_on_works, find_evaluation_fields
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import get_catalogue
@@ -53,6 +53,16 @@ UNKNOWN_DIAGNOSTICS = Diagnostics(
 )
 
 
+class _RatePolynomial(NamedTuple):
+    """Represent a polynomial of q̇ in Legendre form, with its integral over s = (t − middle)/half_width."""
+
+    error: float  # estimate
+    middle: float  # s
+    half_width: float  # s
+    coefficients: Any  # (n_coefficients, n)
+    integral: Any  # (n_coefficients + 1, n)
+
+
 class RunInterpolant:
     """Hold the current block of a run's states, and evaluate series at and between them.
 
@@ -67,7 +77,9 @@ class RunInterpolant:
         self.p, self.given, self.is_given = parameter_arrays  # as in a Result
         self.catalogue = get_catalogue(self.source)
         requested = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
-        self.parts = FIELD_NAMES if names is None else find_evaluation_parts(self.source, requested) | {"a"}
+        self.evaluation_fields = (
+            FIELD_NAMES if names is None else find_evaluation_fields(self.source, requested) | {"a"}
+        )
         self.needs_works = any(depends_on_works(self.source, name) for name in requested)
         self.is_kinematic = self.source.methods == (KINEMATIC,)
         self.has_films = any(joint.film for joint in self.source.clearances)
@@ -126,20 +138,20 @@ class RunInterpolant:
         through positions, velocities and accelerations. Its evaluation is cached for the block.
         """
         if self.inner_cache is None:
-            x, a, s = self.steps, self.run.a[1:], INNER_FRACTION
-            h, q = np.diff(x.t)[:, None], np.diff(x.q, axis=0)
-            r0, r1, c0, c1 = h * x.v[:-1], h * x.v[1:], h**2 * a[:-1], h**2 * a[1:]
+            steps, a, s = self.steps, self.run.a[1:], INNER_FRACTION
+            h, q = np.diff(steps.t)[:, None], np.diff(steps.q, axis=0)
+            r0, r1, c0, c1 = h * steps.v[:-1], h * steps.v[1:], h**2 * a[:-1], h**2 * a[1:]
             with np.errstate(invalid="ignore", divide="ignore"):
                 remainders = q - r0 - 0.5 * c0, r1 - r0 - c0, c1 - c0  # what the powers 3 to 5 add at the end
                 third = 10.0 * remainders[0] - 4.0 * remainders[1] + 0.5 * remainders[2]
                 fourth = -15.0 * remainders[0] + 7.0 * remainders[1] - remainders[2]
                 fifth = 6.0 * remainders[0] - 3.0 * remainders[1] + 0.5 * remainders[2]
-                q_inside = x.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
+                q_inside = steps.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
                 v_inside = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
             q_inside[~self.is_within_step] = v_inside[~self.is_within_step] = np.nan
-            t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
+            t, works = steps.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
             self.inner_cache = self._build_evaluated_result(
-                Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.is_after_jump[:-1])
+                Steps(t, q_inside, v_inside, works, steps.memory[:-1], steps.state[:-1], steps.is_after_jump[:-1])
             )[0]
         return self.inner_cache[name][1:]
 
@@ -150,8 +162,10 @@ class RunInterpolant:
         angles). The forces of films and of stiff friction depend steeply on the speed. Interpolated speeds within the
         tolerance may therefore give wrong forces.
         """
-        mid, half, rates, _ = self._interpolate_rates(k)
-        differences = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
+        rates = self._interpolate_rates(k)
+        nodes = (t - rates.middle) / rates.half_width
+        slopes = legval(nodes, legder(rates.coefficients)).T / rates.half_width
+        differences = np.abs(a - slopes).reshape(len(t), -1, 3)
         largest = np.abs(self.run.a[1:][k : k + 2]).reshape(2, -1, 3)
         errors = [
             differences[..., kind].max(axis=(1, 2)) / largest[..., kind].max(initial=1e-300) for kind in ([0, 1], [2])
@@ -165,21 +179,21 @@ class RunInterpolant:
         state.
         """
         assert self.first is not None
-        x = self.first.concatenate(steps)
-        evaluation, has_accelerations = self._evaluate_states(x)
+        states = self.first.concatenate(steps)
+        evaluation, has_accelerations = self._evaluate_states(states)
         run = Result(
             compiled=self.compiled,
             source=self.source,
             p=self.p,
             given=self.given,
             is_given=self.is_given,
-            t=x.t,
-            q=x.q,
-            v=x.v,
+            t=states.t,
+            q=states.q,
+            v=states.v,
             accelerations=evaluation.a,
-            state=x.state,
-            memory=x.memory,
-            work=x.work,
+            state=states.state,
+            memory=states.memory,
+            work=states.work,
             impacts=np.zeros(0, IMPACT_DTYPE),
             diagnostics=UNKNOWN_DIAGNOSTICS,
         )
@@ -204,7 +218,7 @@ class RunInterpolant:
                     if is_solvable.all()
                     else (t[is_solvable], steps.q[is_solvable], steps.v[is_solvable], steps.memory[is_solvable])
                 )
-                evaluation = self.compiled.evaluate(*states, self.p, field_names=self.parts)
+                evaluation = self.compiled.evaluate(*states, self.p, field_names=self.evaluation_fields)
                 break
             except SolverError as error:
                 remaining = is_solvable & (np.abs(t - error.time) > 4.0 * compute_rounding_distance(t))
@@ -212,7 +226,7 @@ class RunInterpolant:
         if is_solvable.all():
             return evaluation, is_solvable
         columns = {name: np.full((len(steps), *array.shape[1:]), np.nan) for name, array in vars(evaluation).items()}
-        for name in self.parts:
+        for name in self.evaluation_fields:
             columns[name][is_solvable] = getattr(evaluation, name)
         return Evaluation(**columns), is_solvable
 
@@ -222,48 +236,51 @@ class RunInterpolant:
         Contact codes and modes are those of state k, and internal states vary linearly. Works are NaN unless a
         requested series needs them. `is_after_jump` is set in the first half of the interval.
         """
-        x = self.steps
-        s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
+        steps = self.steps
+        s = ((t - steps.t[k]) / (steps.t[k + 1] - steps.t[k]))[:, None]
         q, v = self._interpolate_motion(k, t, s)
-        discrete_states = np.repeat(x.memory[k : k + 1], len(t), axis=0)
+        discrete_states = np.repeat(steps.memory[k : k + 1], len(t), axis=0)
         states = slice(discrete_states.shape[1] - len(self.source.internal_states), None)
-        discrete_states[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
-        codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
+        discrete_states[:, states] += s * (steps.memory[k + 1, states] - steps.memory[k, states])
+        codes = np.repeat(steps.state[k : k + 1], len(t), axis=0)
         works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)
         return Steps(t, q, v, works, discrete_states, codes, s[:, 0] < 0.5)
 
     def _interpolate_motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
         """Return q and q̇ (T, n) at times t and fractions s (T, 1) between states k and k + 1.
 
-        They follow from the interpolating polynomials, or from the drives where the scene has no degrees of freedom.
+        They follow from the interpolating polynomial of q̇, whose integral is corrected linearly to meet state k + 1,
+        or from the drives where the scene has no degrees of freedom.
         """
-        x = self.steps
+        steps = self.steps
         if self.is_kinematic:
-            q, v = compute_motion_at(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
+            q, v = compute_motion_at(
+                self.compiled, self.p, np.concatenate([steps.t[k : k + 1], t]), steps.q[k], steps.v[k]
+            )
             return q[1:], v[1:]
-        mid, half, rates, integral = self._interpolate_rates(k)
-        places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
-        displacement = half * legval(places, integral).T
-        correction = x.q[k + 1] - x.q[k] - (displacement[1] - displacement[0])  # error of the integrated rates
-        return x.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(places[2:], rates).T
+        rates = self._interpolate_rates(k)
+        nodes = (np.concatenate([steps.t[k : k + 2], t]) - rates.middle) / rates.half_width
+        displacement = rates.half_width * legval(nodes, rates.integral).T
+        correction = steps.q[k + 1] - steps.q[k] - (displacement[1] - displacement[0])  # error of the integrated rates
+        return steps.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(
+            nodes[2:], rates.coefficients
+        ).T
 
-    def _interpolate_rates(self, k: int) -> tuple[float, float, Any, Any]:
-        """Return the polynomial of q̇ between states k and k + 1, in Legendre form.
+    def _interpolate_rates(self, k: int) -> _RatePolynomial:
+        """Return the polynomial of q̇ between states k and k + 1.
 
-        Return the middle and half width (s) of its interval, its coefficients, and those of its integral. It also
-        passes through neighbouring states where these reduce its estimated error; across a kink of a force they do not.
-        The result of the last k is cached.
+        It also passes through neighbouring states where these reduce its estimated error; across a kink of a force they
+        do not. The result of the last k is cached.
         """
         if self.rates_cache[0] != k:
             h, max_count = np.diff(self.steps.t), 2 if self.has_films else 1  # neighbours on each side
             before, after = (self._count_neighbours(h, k, direction, max_count) for direction in (-1, 1))
             ranges = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
-            fit = min(
-                (self._fit_rates(slice(*rows)) for rows in sorted(ranges)), key=lambda fit_of_range: fit_of_range[0]
-            )
-            self.rates_cache = k, (*fit[1:], legint(fit[3]))
-        interpolant: tuple[float, float, Any, Any] = self.rates_cache[1]
-        return interpolant
+            fits = (self._fit_rates(slice(*rows)) for rows in sorted(ranges))
+            fit = min(fits, key=lambda fit_of_range: fit_of_range.error)
+            self.rates_cache = k, fit._replace(integral=legint(fit.coefficients))
+        polynomial: _RatePolynomial = self.rates_cache[1]
+        return polynomial
 
     def _count_neighbours(self, h: Array, k: int, direction: int, max_count: int) -> int:
         """Return how many states before k or after k + 1 the polynomial may pass through, 0 to `max_count`.
@@ -280,23 +297,24 @@ class RunInterpolant:
                 return count
         return max_count
 
-    def _fit_rates(self, state_range: slice) -> tuple[float, float, float, Any]:
+    def _fit_rates(self, state_range: slice) -> _RatePolynomial:
         """Fit the polynomial of q̇ to the states in the slice `state_range` and their accelerations.
 
-        Return its estimated error, the middle and half width of its interval (s), and its Legendre coefficients. With
-        films, accelerations are not used: they amplify the errors of velocities.
+        Its error is estimated from the last two coefficients; its integral is left out (None). With films,
+        accelerations are not used: they amplify the errors of velocities.
         """
-        x, a = self.steps, self.run.a[1:]
-        t, n = x.t[state_range], len(x.t[state_range]) * (1 if self.has_films else 2)
-        mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
-        s = (t - mid) / half
-        matrix, values = legvander(s, n - 1), x.v[state_range]
+        steps, a = self.steps, self.run.a[1:]
+        t, n = steps.t[state_range], len(steps.t[state_range]) * (1 if self.has_films else 2)
+        middle, half_width = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
+        s = (t - middle) / half_width
+        matrix, values = legvander(s, n - 1), steps.v[state_range]
         if not self.has_films:
             matrix = np.concatenate([matrix, legval(s, _differentiate_legendre(n)).T])
-            values = np.concatenate([values, half * a[state_range]])
+            values = np.concatenate([values, half_width * a[state_range]])
         coefficients = np.linalg.solve(matrix, values)
         last, second_last = np.abs(coefficients[-1]).max(), np.abs(coefficients[-2]).max()
-        return float(last * min(1.0, last / max(second_last, 1e-300))), mid, half, coefficients
+        error = float(last * min(1.0, last / max(second_last, 1e-300)))
+        return _RatePolynomial(error, middle, half_width, coefficients, None)
 
     def _interpolate_works(self, k: int, s: Array) -> Array:
         """Return the works (T, 3) in J at fractions s (T, 1) between states k and k + 1.
@@ -304,16 +322,16 @@ class RunInterpolant:
         They are the integral of the polynomial through the powers at six Gauss points, corrected linearly so that state
         k + 1 is met. The integral of the last k is cached.
         """
-        x = self.steps
+        steps = self.steps
         if self.works_cache[0] != k:
-            h = x.t[k + 1] - x.t[k]
-            t = x.t[k] + h * NODES
+            h = steps.t[k + 1] - steps.t[k]
+            t = steps.t[k] + h * NODES
             q, v = self._interpolate_motion(k, t, NODES[:, None])
-            power = self.compiled.evaluate(t, q, v, np.repeat(x.memory[k : k + 1], len(t), axis=0), self.p).power
+            power = self.compiled.evaluate(t, q, v, np.repeat(steps.memory[k : k + 1], len(t), axis=0), self.p).power
             self.works_cache = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
         work = legval(2.0 * s[:, 0] - 1.0, self.works_cache[1]).T
-        correction = x.work[k + 1] - x.work[k] - legval(1.0, self.works_cache[1])
-        corrected_work: Array = x.work[k] + work + s * correction
+        correction = steps.work[k + 1] - steps.work[k] - legval(1.0, self.works_cache[1])
+        corrected_work: Array = steps.work[k] + work + s * correction
         return corrected_work
 
 
@@ -326,11 +344,12 @@ def _differentiate_legendre(n: int) -> Any:
 def _compute_shortest_interval(steps: Steps) -> float:
     """Return the length (s) of the shortest interval in which differences of positions still determine speeds.
 
-    Lengths and angles are tested separately. Blocks at rest are not limited, though forces may vary there.
+    It is 40 ε max|q| / (MAX_SPEED_ERROR max|q̇|), the largest of x, y and angles; 0 at rest. Blocks at rest are not
+    limited, though forces may vary there.
     """
     shortest = 0.0
     for kind in (slice(0, None, 3), slice(1, None, 3), slice(2, None, 3)):  # x, y, angles of all bodies
-        q, v = (np.abs(part[:, kind][np.isfinite(part[:, kind])]).max(initial=0.0) for part in (steps.q, steps.v))
+        q, v = (np.abs(values[:, kind][np.isfinite(values[:, kind])]).max(initial=0.0) for values in (steps.q, steps.v))
         if v * float(steps.t[-1] - steps.t[0]) > MAX_MOTION_AT_REST * q:
             shortest = max(shortest, 40.0 * np.finfo(float).eps * float(q) / (MAX_SPEED_ERROR * float(v)))
     return shortest

@@ -17,7 +17,7 @@ from gudgeon.simulation.audit import (
     LIMITS,
     MAX_CALLS_OF_SHORT_RUN,
     SAMPLE_POSITIONS,
-    list_checks_left_out,
+    list_inapplicable_checks,
     select_audit_samples,
 )
 
@@ -30,7 +30,7 @@ class ReusableSampleAudit:
 
     def __init__(self, run: ReusableRun, is_resumed: bool) -> None:
         self.run, self.is_resumed = run, is_resumed
-        left_out = list_checks_left_out(run.compiled.source, run.method)
+        left_out = list_inapplicable_checks(run.compiled.source, run.method)
         self._limits = np.array([np.inf if check in left_out else AUDIT_FAILS * x for check, x in LIMITS.items()])
         pointer, x = run.compiled.pointer, run.arrays
         self._errors = np.zeros((len(SAMPLE_POSITIONS), len(LIMITS)))
@@ -46,14 +46,14 @@ class ReusableSampleAudit:
         Return False without an audit. Errors that are not finite do not count: the check "finite" of `simulate`
         reports them.
         """
-        run, x = self.run, self.run.arrays
+        run, arrays = self.run, self.run.arrays
         if not run.audit:
             return False
-        n_samples, right_hand_sides = x["done"].item(k), x["counts"].item(k, RIGHT_HAND_SIDES)
+        n_samples, right_hand_sides = arrays["done"].item(k), arrays["counts"].item(k, RIGHT_HAND_SIDES)
         key = k, n_samples, run.audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
         if key not in self._arguments:
             self._arguments[key] = self._list_arguments(k, select_audit_samples(n_samples, run.audit, right_hand_sides))
-        size, arguments = x["size"].item(k), self._arguments[key]
+        size, arguments = arrays["size"].item(k), self._arguments[key]
         for pointers, errors_of_sample in arguments:
             run.compiled.lib.gudgeon_audit_samples(1, *pointers, size, errors_of_sample)
         errors = self._errors[: len(arguments)]
@@ -67,13 +67,13 @@ class ReusableSampleAudit:
         The first of a pair are pointers to t, q, v, discrete states and p, the second a pointer to the len(LIMITS)
         errors that C writes. The first sample of a resumed run is left out if there are others.
         """
-        compiled, (y, latched, p) = self.run.compiled, self._rows[k]
+        compiled, (y, discrete_states, p) = self.run.compiled, self._rows[k]
         if self.is_resumed and len(samples) > 1:
             samples = samples[samples > 0]
         width, n_discrete = 2 * compiled.n + N_WORK, max(compiled.n_discrete_states, 1)
         return [
             (
-                (self._t + i, y + width * i, y + (width * i + compiled.n), latched + n_discrete * i, p),
+                (self._t + i, y + width * i, y + (width * i + compiled.n), discrete_states + n_discrete * i, p),
                 self._errors_pointer + len(LIMITS) * j,
             )
             for j, i in enumerate(samples.tolist())

@@ -48,20 +48,22 @@ def check_samples(
     `poll` polls for cancellation; its exceptions are passed on. Raises SingularError for a sample without
     accelerations.
     """
-    x, compiled, N = trajectory, problem.compiled, len(trajectory.t)
-    audit, outputs = SampleAudit(problem, x), UndefinedOutputs(compiled.source)
+    compiled, N = problem.compiled, len(trajectory.t)
+    audit, outputs = SampleAudit(problem, trajectory), UndefinedOutputs(compiled.source)
     skipped = int(not problem.start_is_sample and N > 1)  # the start was not requested
-    energy, slip, a, start = list[Array](), list[Array](), x.a, None
+    energy, slip, a, start = list[Array](), list[Array](), trajectory.a, None
     for first in range(0, max(N, 1), MAX_STORED):
         rows = slice(first, first + MAX_STORED)
-        evaluation = compiled.evaluate(times[rows], x.q[rows], x.v[rows], x.memory[rows], problem.p, poll)
+        evaluation = compiled.evaluate(
+            times[rows], trajectory.q[rows], trajectory.v[rows], trajectory.memory[rows], problem.p, poll
+        )
         energy.append(evaluation.energy)
         slip.append(evaluation.friction[:, :, 1])
         audit.add_samples(first, evaluation)
-        if a is not None and N and first + MAX_STORED >= N and times[-1] < x.t[-1]:  # the limit from the left
+        if a is not None and N and first + MAX_STORED >= N and times[-1] < trajectory.t[-1]:  # the limit from the left
             a = np.append(a[:-1], evaluation.a[-1:], axis=0)
         if outputs.expressions:
-            samples = _make_samples(problem, x, rows, a, evaluation)
+            samples = _make_samples(problem, trajectory, rows, a, evaluation)
             if not first and (skipped or N > MAX_STORED):
                 start = select_samples(samples, lambda x: x[:1])
             if skipped and not first:
@@ -69,12 +71,18 @@ def check_samples(
             samples.start_row = start if first or skipped else None
             outputs.add_samples(samples)
     all_energy, all_slip = (parts[0] if len(parts) == 1 else np.concatenate(parts) for parts in (energy, slip))
-    balance = compute_energy_balance(all_energy, x.work, poll)
-    notes = () if compiled.source.massless_bodies else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
+    balance = compute_energy_balance(all_energy, trajectory.work, poll)
+    notes = (
+        ()
+        if compiled.source.massless_bodies
+        else _build_non_finite_energy_note(trajectory.t, all_energy, trajectory.work, balance[0])
+    )
     notes += () if compiled.source.massless_bodies else _build_coarse_step_note(problem, *balance)
     notes += outputs.build_notes()
     if compiled.source.frictions:
-        notes += _build_undetermined_friction_notes(problem, x.t[skipped:], x.memory[skipped:], all_slip[skipped:])
+        notes += _build_undetermined_friction_notes(
+            problem, trajectory.t[skipped:], trajectory.memory[skipped:], all_slip[skipped:]
+        )
     is_whole = N <= MAX_STORED
     return CheckedSamples(
         evaluation if is_whole else None,
@@ -86,7 +94,7 @@ def check_samples(
 
 
 def _make_samples(
-    problem: Problem, x: Trajectory, rows: slice, a: Array | None, evaluation: Evaluation
+    problem: Problem, trajectory: Trajectory, rows: slice, a: Array | None, evaluation: Evaluation
 ) -> EvaluatedSamples:
     """Return the samples `rows` of a run as a result without diagnostics, with their evaluation.
 
@@ -96,12 +104,12 @@ def _make_samples(
         problem.compiled.source,
         problem.compiled,
         problem.p,
-        x.t[rows],
-        x.q[rows],
-        x.v[rows],
-        x.work[rows],
-        x.memory[rows],
-        x.state[rows],
+        trajectory.t[rows],
+        trajectory.q[rows],
+        trajectory.v[rows],
+        trajectory.work[rows],
+        trajectory.memory[rows],
+        trajectory.state[rows],
         FIELD_NAMES,
     )
     samples.accelerations = None if a is None else a[rows]
@@ -112,16 +120,18 @@ def _make_samples(
 def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
     """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
 
-    `energy` (N, 2): kinetic and potential; `work` (N, 3): works since the start. Both results are NaN without samples.
+    Throughput: the sum of |ΔW| of each work over the intervals between samples, plus the range of the kinetic energy.
+    `energy` (N, 2): kinetic and potential; `work` (N, 3): works of drives, force elements and joints with play since
+    the start. Both results are NaN without samples.
     An impact at the very start has done its work before the first sample. `poll` polls for cancellation between blocks;
     its exceptions are passed on.
     """
-    if not len(energy):  # the start has no accelerations
+    if not len(energy):  # the run failed at its start, which has no accelerations
         return math.nan, math.nan
     residual_max = throughput = 0.0
     kinetic, potential = energy.T
     by_drives, by_forces, by_clearances = work.T
-    with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
+    with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_non_finite_energy_note`
         for first in range(0, len(energy), POLLED_SAMPLES):
             rows, following = slice(first, first + POLLED_SAMPLES), slice(first + 1, first + POLLED_SAMPLES + 1)
             change = (kinetic[rows] + potential[rows]) - (kinetic[0] + potential[0])
@@ -147,7 +157,7 @@ def _build_coarse_step_note(problem: Problem, residual: float, throughput: float
     )
 
 
-def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
+def _build_non_finite_energy_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
     """Return a note if the energy residual `residual` (J) is not finite, with the time of the first such sample; else
     ().
     """

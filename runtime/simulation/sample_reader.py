@@ -14,7 +14,7 @@ import numpy as np
 from gudgeon.integrators.reusable_run import N_ROWS, ReusableRun
 from gudgeon.model.compiled import Array
 from gudgeon.model.evaluation import allocate_evaluation
-from gudgeon.results.batch import find_evaluation_parts
+from gudgeon.results.batch import find_evaluation_fields
 from gudgeon.results.results import Result, make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.stored_series import build_samples
@@ -31,9 +31,9 @@ class SampleReader:
     def __init__(self, run: ReusableRun, names: Sequence[str], n_skipped: int) -> None:
         source = run.compiled.source
         self.run, self.names, self.n_skipped, self.n_samples = run, names, n_skipped, run.times.max_count
-        self.parts = find_evaluation_parts(source, names)
+        self.evaluation_fields = find_evaluation_fields(source, names)
         is_simple = not (
-            self.parts
+            self.evaluation_fields
             and (
                 run.compiled.has_mod_in_drives
                 or run.compiled.may_drive_acceleration_jump
@@ -42,7 +42,9 @@ class SampleReader:
             )
         )
         self._is_reusable = is_simple and self.n_samples <= MAX_SAMPLES and not source.massless_bodies
-        self._samples = [_ReusableSamples(run, k, self.parts) for k in range(N_ROWS if self._is_reusable else 0)]
+        self._samples = [
+            _ReusableSamples(run, k, self.evaluation_fields) for k in range(N_ROWS if self._is_reusable else 0)
+        ]
         self._columns = [[self._find_column(samples, name) for name in names] for samples in self._samples]
 
     def _find_column(self, samples: _ReusableSamples, name: str) -> Array | Callable[[Result], Array]:
@@ -63,8 +65,8 @@ class SampleReader:
 
         Raises SingularError for a sample whose quantities cannot be evaluated.
         """
-        x, n_skipped = self.run.arrays, self.n_skipped
-        is_complete = x["done"].item(k) == self.n_samples and not x["status"].item(k)
+        arrays, n_skipped = self.run.arrays, self.n_skipped
+        is_complete = arrays["done"].item(k) == self.n_samples and not arrays["status"].item(k)
         if self._is_reusable and is_complete and self._samples[k].evaluate():
             samples = self._samples[k]
             values = np.empty((len(self.names), self.n_samples - n_skipped))
@@ -72,7 +74,7 @@ class SampleReader:
                 values[i] = (column if isinstance(column, np.ndarray) else column(samples.result))[n_skipped:]
             return values
         values = np.full((len(self.names), self.n_samples - n_skipped), np.nan)
-        result = build_samples(self.run, k, self.parts)
+        result = build_samples(self.run, k, self.evaluation_fields)
         assert result is not None
         first = n_skipped if len(result.t) > 1 else 0  # a run that ends at its start has no other sample
         for row, name in zip(values, self.names, strict=True):
@@ -83,7 +85,7 @@ class SampleReader:
 class _ReusableSamples:
     """Hold the samples of one row as a result without diagnostics, whose arrays are views of those of the run."""
 
-    def __init__(self, run: ReusableRun, k: int, parts: frozenset[str]) -> None:
+    def __init__(self, run: ReusableRun, k: int, evaluation_fields: frozenset[str]) -> None:
         compiled, x, n = run.compiled, run.arrays, run.compiled.n
         y, pointer = x["y"][k], compiled.pointer
         joints = len(compiled.source.clearances)
@@ -98,12 +100,12 @@ class _ReusableSamples:
             y[:, 2 * n :],
             memory,
             state,
-            parts,
+            evaluation_fields,
         )
-        self.compiled, self.n_samples, self._parts = compiled, len(y), parts
+        self.compiled, self.n_samples, self._evaluation_fields = compiled, len(y), evaluation_fields
         self._source = y[:, :n], y[:, n : 2 * n]
         self._copies = np.empty((len(y), n)), np.empty((len(y), n))
-        self.evaluation, _ = allocate_evaluation(compiled, len(y), parts)
+        self.evaluation, _ = allocate_evaluation(compiled, len(y), evaluation_fields)
         self._filled = [array for array in vars(self.evaluation).values() if array.size]
         results = [
             pointer(array, is_written=True) if array.size else compiled.ffi.NULL
@@ -121,7 +123,7 @@ class _ReusableSamples:
         self.result.stored.clear()
         for name in _PARAMETER_PROPERTIES:
             cached.pop(name, None)
-        if not self._parts:
+        if not self._evaluation_fields:
             return True
         for copy, source in zip(self._copies, self._source, strict=True):
             copy[...] = source

@@ -38,7 +38,7 @@ from gudgeon.results.batch import (
     Batch,
     States,
     collect_given_values,
-    find_evaluation_parts,
+    find_evaluation_fields,
     make_failures,
 )
 from gudgeon.results.peaks import build_peak_records
@@ -120,7 +120,9 @@ def simulate_many(
     p, p_motion, failures = compute_parameter_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
     failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
-    check_sample_memory(compiled, times.max_count, len(p), series, find_evaluation_parts(source, series or ()), workers)
+    check_sample_memory(
+        compiled, times.max_count, len(p), series, find_evaluation_fields(source, series or ()), workers
+    )
     steps = run_arguments.compute_steps(selected, p, times, failures)
     failures |= run_arguments.failures
     return _run_batch(simulation, starts, (p, p_motion, steps), times, failures, options)
@@ -276,9 +278,11 @@ class _Starts:
         `p`: parameter values (n_runs, …).
         """
         indices = range(len(p) if options.peaks else 0)
-        numbers = [(p[i], self.given[i], self.is_given[i]) for i in indices]
+        parameter_values = [(p[i], self.given[i], self.is_given[i]) for i in indices]
         arguments = (options.rtol, options.peaks, options.against)
-        return [None if i in failures else make_observer(self.compiled, numbers[i], *arguments) for i in indices]
+        return [
+            None if i in failures else make_observer(self.compiled, parameter_values[i], *arguments) for i in indices
+        ]
 
 
 @dataclass
@@ -332,7 +336,7 @@ class _Results:
             self.stored_series.store_finished_runs(runs, finished_runs)
 
     def _check_redundant_constraints(self, finished_runs: Sequence[int]) -> None:
-        """Record an error for each finished run with samples that violates a redundant constraint equation, if any."""
+        """Record an error for each finished run with samples that violates a redundant constraint equation."""
         runs = self.runs
         for i in finished_runs if list_redundant_equations(runs.compiled) else ():
             if runs.arrays["done"][i] and (
@@ -387,31 +391,36 @@ class _Results:
 
         They are notes on parameters, left validity ranges, redundant constraints, checks in Python, and step observers.
         """
-        x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
-        peaks, counted = x["peaks"][:, : len(source.clearances)], convert_counts_of_runs(x["counts"], x["residuals"])
-        size = compute_mechanism_sizes(source, x["p"])
-        may_be_outside = may_exceed_validity_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
+        arrays, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
+        peaks, counted = (
+            arrays["peaks"][:, : len(source.clearances)],
+            convert_counts_of_runs(arrays["counts"], arrays["residuals"]),
+        )
+        size = compute_mechanism_sizes(source, arrays["p"])
+        may_be_outside = may_exceed_validity_range(source, arrays["p"], size, counted["phi_max"], peaks) & (
+            arrays["done"] > 0
+        )
         notes_by_run = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
         for i in np.flatnonzero(may_be_outside).tolist():
-            q0, counts, t0 = x["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
-            range_notes = yield_range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
+            q0, counts, t0 = arrays["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
+            range_notes = yield_range_notes(self.simulation.compiled, arrays["p"][i], t0, q0, counts, peaks[i])
             notes_by_run[i] = (*notes_by_run.get(i, ()), *range_notes)
-        for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless_bodies else ():
+        for i in np.flatnonzero(arrays["done"] > 0).tolist() if source.massless_bodies else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_missing_mass_note(source))
-        for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
+        for i in np.flatnonzero(arrays["done"] > 0).tolist() if source.indeterminate else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_redundancy_note(source))
         notes_by_run |= self.python_notes
         for i, observation in enumerate(self.observations):
             notes_by_run[i] = (*notes_by_run.get(i, ()), *observation.notes)
         return notes_by_run
 
-    def evaluate_samples(self, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
-        """Return the samples of run i without diagnostics, for evaluating `parts` of its equations; None if it has no
-        samples.
+    def build_run_samples(self, i: int, field_names: frozenset[str]) -> EvaluatedSamples | None:
+        """Return the samples of run i without diagnostics, for evaluating the fields `field_names` of an Evaluation;
+        None if it has no samples.
 
         The start is left out if it was not requested as a sample. Batch evaluates series from it (ResultOf).
         """
-        samples = build_samples(self.runs, i, parts)
+        samples = build_samples(self.runs, i, field_names)
         return split_off_start(samples) if samples and self.runs.times.n_skipped[i] else samples
 
 
@@ -421,33 +430,35 @@ def _build_batch(results: _Results, times: Times) -> Batch:
     With stored series, the states of all runs are released. Wall time and threads are set by the caller.
     """
     runs, source, stored_series = results.runs, results.simulation.source, results.stored_series
-    x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
+    arrays, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
     if stored_series:
         stored_series.fill_times_and_gaps(runs)
-    without_samples = np.flatnonzero((x["done"] == 1) & (times.n_skipped == 1))  # runs that have only their start
+    without_samples = np.flatnonzero((arrays["done"] == 1) & (times.n_skipped == 1))  # runs that have only their start
     for rows in (
-        (stored_series.arrays.values() if stored_series else (x["y"], x["state"])) if len(without_samples) else ()
+        (stored_series.arrays.values() if stored_series else (arrays["y"], arrays["state"]))
+        if len(without_samples)
+        else ()
     ):
         rows[without_samples, 1:2] = rows[without_samples, :1]
     states = None
     if stored_series:
         runs.release_samples()
     else:
-        y, state = times.select_requested_samples(x["y"]), times.select_requested_samples(x["state"])
+        y, state = times.select_requested_samples(arrays["y"]), times.select_requested_samples(arrays["state"])
         work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless_bodies else y[:, :, 2 * n :]
         states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
-    numbers = {**convert_counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
+    counts_by_name = {**convert_counts_of_runs(arrays["counts"], arrays["residuals"]), "seconds": arrays["seconds"]}
     return Batch(
         source=source,
         t=times.get_requested_times(),
         states=states,
-        samples=x["done"] - times.n_skipped * (x["done"] > 1),
-        t_last=x["t_last"],
-        parameters=collect_given_values(source, x["p"], results.starts.is_given),
+        samples=arrays["done"] - times.n_skipped * (arrays["done"] > 1),
+        t_last=arrays["t_last"],
+        parameters=collect_given_values(source, arrays["p"], results.starts.is_given),
         impacts=runs.list_contacts(),
         events=runs.list_events(),
-        peaks=build_peak_records(x["peaks"][:, :joints], runs.contacts, np.diff(runs.first_contact_indices)),
-        diagnostics=numbers,
+        peaks=build_peak_records(arrays["peaks"][:, :joints], runs.contacts, np.diff(runs.first_contact_indices)),
+        diagnostics=counts_by_name,
         failures=make_failures(runs.failures),
         seconds=math.nan,
         threads=0,

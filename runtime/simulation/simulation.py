@@ -48,7 +48,7 @@ from gudgeon.simulation.restart import (
 from gudgeon.simulation.result_builder import build_result, check_result, mark_result_if_interrupted
 from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, check_requested_peaks, make_observer
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
-from gudgeon.waiting.imports import GENERATOR, import_modules_completely
+from gudgeon.waiting.imports import GENERATOR, import_modules_in_thread
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
@@ -97,7 +97,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         Raises InputError if the file, a table or a law changed after loading.
         """
         if self._model is None:
-            import_modules_completely(*GENERATOR)
+            import_modules_in_thread(*GENERATOR)
             from gudgeon.generator.pipeline import derive_scene
 
             data = read_unchanged_file(self.source, self.file)

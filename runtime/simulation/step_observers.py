@@ -176,15 +176,26 @@ class ComparedScene:
         times = np.union1d(problem.t[:1], t)
         if self.last_state is not None and len(times) == 1:
             return self.last_state[np.zeros(len(t), dtype=int)]
-        x = integrate_run(replace(problem, t=times))
-        if x.stopped is not None:
-            raise x.stopped
-        work = x.work if self.last_state is None else x.work + self.last_state.work  # works of a part begin at 0
-        steps = Steps(x.t, x.q, x.v, work, x.memory, x.state, np.zeros(len(x.t), dtype=bool))
+        trajectory = integrate_run(replace(problem, t=times))
+        if trajectory.stopped is not None:
+            raise trajectory.stopped
+        work = trajectory.work  # works of a part begin at 0
+        work = work if self.last_state is None else work + self.last_state.work
+        steps = Steps(
+            trajectory.t,
+            trajectory.q,
+            trajectory.v,
+            work,
+            trajectory.memory,
+            trajectory.state,
+            np.zeros(len(trajectory.t), dtype=bool),
+        )
         self.last_state = steps[-1:]
-        state = x.state[-1] if x.state.shape[1] else None
-        self.problem = replace(problem, t=times[-1:], q=x.q[-1], v=x.v[-1], memory=x.memory[-1], state=state)
-        return steps[np.searchsorted(x.t, t)]
+        state = trajectory.state[-1] if trajectory.state.shape[1] else None
+        self.problem = replace(
+            problem, t=times[-1:], q=trajectory.q[-1], v=trajectory.v[-1], memory=trajectory.memory[-1], state=state
+        )
+        return steps[np.searchsorted(trajectory.t, t)]
 
     def _build_start_problem(self) -> Problem:
         """Return the Problem of the assembled scene at t = 0, by method "auto" and without discrete states."""

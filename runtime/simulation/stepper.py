@@ -52,7 +52,7 @@ class Stepper:
     def __init__(self, simulation: Simulation, arguments: dict[str, Any]) -> None:
         self._simulation, self._lock = simulation, Lock()
         names = ("method", "rtol", "step", "stop", "audit")
-        setup = self._setup = RunSetup.check(
+        setup = self._setup = RunSetup.from_arguments(
             simulation,
             arguments["inputs"],
             arguments["series"],

@@ -13,7 +13,7 @@ from gudgeon.integrators.times import Times
 from gudgeon.model.evaluation import evaluate_runs
 from gudgeon.model.file_expressions import may_powers_be_undefined
 from gudgeon.model.left_limit import find_evaluation_times
-from gudgeon.results.batch import STATES, check_series_names, depends_on_works, find_evaluation_parts
+from gudgeon.results.batch import STATES, check_series_names, depends_on_works, find_evaluation_fields
 from gudgeon.results.results import EvaluatedSamples, Result, make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 
@@ -42,12 +42,12 @@ class StoredSeries:
     """
 
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
-        self.names, self.parts = names, find_evaluation_parts(source, names)
+        self.names, self.evaluation_fields = names, find_evaluation_fields(source, names)
         # one block, whose memory the system provides in larger pages than that of many arrays
         self.arrays = dict(zip(names, np.empty((len(names), n, times.max_count)), strict=True))
         self._source, self._names_in_python = source, names
         series = [get_catalogue(source)[name] for name in names]
-        self.may_join_runs = all(one.stored or one.evaluated or one.is_by_sample for one in series)
+        self.may_join_runs = all(entry.stored or entry.evaluated or entry.is_by_sample for entry in series)
 
     def pass_arrays_to_c(self, kinematic: KinematicEnsemble) -> None:
         """Pass the arrays of series of the motion to the kinematic ensemble, so that C fills them during the runs.
@@ -58,7 +58,7 @@ class StoredSeries:
         motions = {name: get_catalogue(self._source)[name].motion for name in self._names_in_python}
         in_c = dict([(name, motion) for name, motion in motions.items() if motion][:MAX_MOTION_SERIES])
         self._names_in_python = tuple(name for name in self._names_in_python if name not in in_c)
-        self.parts = find_evaluation_parts(self._source, self._names_in_python)
+        self.evaluation_fields = find_evaluation_fields(self._source, self._names_in_python)
         needs_works = any(depends_on_works(self._source, name) for name in self._names_in_python)
         kinematic.set_series(
             list(in_c.values()),
@@ -101,13 +101,13 @@ class StoredSeries:
         """
         if len(indices) > 1:
             try:
-                joined = _concatenate_samples(runs, indices, self.parts)
+                joined = _concatenate_samples(runs, indices, self.evaluation_fields)
                 self._copy_samples(self._names_in_python, indices, joined.sample_counts, joined)
                 return
             except SolverError:  # evaluating run by run shows which one has the error
                 pass
         for i in indices:
-            if run := build_samples(runs, i, self.parts):
+            if run := build_samples(runs, i, self.evaluation_fields):
                 self._store_run(self._names_in_python, runs, i, run)
 
     def store_run(self, runs: Runs, i: int, run: Result) -> None:

@@ -18,9 +18,9 @@ from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.simulation.audit import (
     LIMITS,
     SHORT_RUN_POSITIONS,
-    find_runs_off_start,
-    list_checks_left_out,
+    find_deviating_starts,
     list_given_coordinates,
+    list_inapplicable_checks,
 )
 
 
@@ -41,7 +41,7 @@ class SuspectRuns:
             or bool(list_redundant_equations(compiled) or list_periodic_drives(source))
         )
         if runs.kinematic and runs.audit == 1:
-            left_out = list_checks_left_out(source, runs.method)
+            left_out = list_inapplicable_checks(source, runs.method)
             limits = [np.inf if check in left_out else limit for check, limit in LIMITS.items()]
             runs.kinematic.set_sample_audit(SHORT_RUN_POSITIONS, np.array(limits))
 
@@ -53,12 +53,12 @@ class SuspectRuns:
         """
         if self.checks_all:
             return list(finished_runs)
-        x, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
-        is_suspect = x["is_suspect"][indices] > 0
+        arrays, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
+        is_suspect = arrays["is_suspect"][indices] > 0
         if self._runs.audit and list_given_coordinates(compiled.source):
-            p = x["p"][indices]
+            p = arrays["p"][indices]
             size = compute_mechanism_sizes(compiled.source, p)
-            is_suspect |= find_runs_off_start(compiled.source, p, x["start"][indices], size)
+            is_suspect |= find_deviating_starts(compiled.source, p, arrays["start"][indices], size)
         if compiled.may_drive_acceleration_jump:
             is_suspect |= [self._ends_at_jump(i) for i in finished_runs]
         return [int(i) for i in indices[is_suspect]]

@@ -61,9 +61,8 @@ class Flow:
         source = compiled.source
         self.compiled, self.p = compiled, compute_values_without_baumgarte(compiled, run.given, run.is_given)
         self.is_reduced = source.formulation == "reduced"
-        sizes_if_reduced = len(source.tree_coordinates), len(source.driven_loop_coordinates)
-        self.m, self.n_dep = sizes_if_reduced if self.is_reduced else (compiled.n, 0)
-        self.is_angle, self.joints = find_integrated_angles(source), len(source.clearances)
+        self.m, self.n_dep = (len(source.tree_coordinates), len(source.driven_loop_coordinates)) if self.is_reduced else (compiled.n, 0)
+        self.is_angle, self.n_joints = find_integrated_angles(source), len(source.clearances)
         rows = [row.owner for row in source.start_equations]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
         self.radial_clearances = [float(self.p[joint.clearance]) for joint in source.clearances]
@@ -125,9 +124,9 @@ class Flow:
         """
         if not self.is_reduced:
             return self.compiled.rhs(t, y, self.p, discrete_states)[: 2 * self.m]
-        m, size, (q, v, held) = self.m, self.m + self.n_dep, self._state
+        m, size, (q, v, memory_buffer) = self.m, self.m + self.n_dep, self._state
         q[:m], q[m:size], v[:m], v[m:size] = y[:m], q_dep[0], y[m:], q_dep[1]
-        held[: len(discrete_states)] = discrete_states
+        memory_buffer[: len(discrete_states)] = discrete_states
         status = self.compiled.lib.gudgeon_reduced_rhs(t, *self._rhs)
         if status:
             self.compiled.check_pivot(status, t, self.compiled.source.integrated_pivots or None)
@@ -139,12 +138,12 @@ class Flow:
         Columns of y and t come from C. Columns of the approach speeds δ̇⁻ of closed contacts are central differences.
         """
         m, node, J = self.m, self._node, self._J
-        A = np.zeros((2 * m + self.joints + 1,) * 2)
+        A = np.zeros((2 * m + self.n_joints + 1,) * 2)
         node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(discrete_states)] = y, q_dep[0], discrete_states
         status = self.compiled.lib.gudgeon_jacobian(t, *self._jacobian)
         self.compiled.check_linearization(status, t)
         A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], self._f_t[: 2 * m]
-        for k in (k for k in range(self.joints) if np.isfinite(discrete_states[k])):
+        for k in (k for k in range(self.n_joints) if np.isfinite(discrete_states[k])):
             ends = []
             for factor in (1.0 - RELATIVE_STEP, 1.0 + RELATIVE_STEP):
                 changed = discrete_states.copy()
@@ -215,7 +214,7 @@ class Panel:
     def nodes(self) -> list[tuple[float, float]]:
         """Return the times t (s) of the three nodes of the panel, each with dt/ds times the width (s).
 
-        The map t(s) has zero slope at both ends, where contacts begin or end.
+        The map t(s) = a + (b − a)(3 s² − 2 s³) has zero slope at both ends, where contacts begin or end.
         """
         s = self.s + self.width * NODES
         times, rates = self.a + (self.b - self.a) * s * s * (3.0 - 2.0 * s), 6.0 * (self.b - self.a) * s * (1.0 - s)
@@ -223,7 +222,7 @@ class Panel:
 
     @property
     def ends(self) -> list[float]:
-        """Return the times (s) of both ends of the panel, moved slightly inside the times of the contacts."""
+        """Return the times (s) of both ends of the panel, mapped as `nodes`, slightly inside the contacts' times."""
         s, length = np.array([self.s, self.s + self.width]), self.b - self.a
         return np.clip(
             self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length, self.b - INSIDE * length
@@ -248,7 +247,7 @@ class Tangent:
     """Integrate a tangent vector z along a run: differences of y, of the approach speeds δ̇⁻ and of t (always 0)."""
 
     simulation: Simulation
-    measure: DifferenceNorm
+    norm: DifferenceNorm
     settings: dict[str, Any]
     state: State
     transverse: bool
@@ -261,8 +260,8 @@ class Tangent:
         """Set the first tangent vector `z` from a randomly drawn neighbour of the start, and its norm `distance`."""
         t, y = self.state.t, flatten_state(self.state)
         reduced_state, _ = self.flow.reduce_state(t, y)
-        other, _ = self.flow.reduce_state(t, self.measure.draw_neighbour(t, y))
-        self.z = np.append((other - reduced_state) / INITIAL_DISTANCE, np.zeros(self.flow.joints + 1))
+        other, _ = self.flow.reduce_state(t, self.norm.draw_neighbour(t, y))
+        self.z = np.append((other - reduced_state) / INITIAL_DISTANCE, np.zeros(self.flow.n_joints + 1))
         self.distance = self._compute_tangent_norm(self.state, self.z)
 
     def advance_to(self, t: float, is_shortest_interval: bool) -> tuple[Result, float] | None:
@@ -347,7 +346,7 @@ class Tangent:
             for panel in unconverged:
                 first, second = panel.halves
                 assert first.P is not None and second.P is not None and panel.P is not None
-                change = self._compare_propagators(second.P @ first.P, panel.P)
+                change = self._compute_propagator_difference(second.P @ first.P, panel.P)
                 rate_error = max(first.rate_error, second.rate_error)
                 if (change > PROPAGATOR_TOL or rate_error > MAX_RATE_ERROR) and first.depth < MAX_DEPTH:
                     next_unconverged += panel.halves
@@ -382,10 +381,10 @@ class Tangent:
     def _compute_rate_error(self, P: Array, rates_at_begin: Array, rates_at_end: Array) -> float:
         """Return the norm of P ẏ(begin) − ẏ(end) of a panel, relative to the larger of the rates (2m,) at its ends."""
         w, size = self._compute_variable_scales(), len(rates_at_begin)
-        mapped_rates = P @ np.concatenate([rates_at_begin, np.zeros(self.flow.joints), [1.0]])
+        mapped_rates = P @ np.concatenate([rates_at_begin, np.zeros(self.flow.n_joints), [1.0]])
         largest = max(float(np.linalg.norm(rates / w[:size])) for rates in (rates_at_begin, rates_at_end))
         return float(np.linalg.norm((mapped_rates[:size] - rates_at_end) / w[:size])) / max(
-            largest, 1e-9 / self.measure.crossing_time
+            largest, 1e-9 / self.norm.crossing_time
         )
 
     def _compute_jacobian(self, t: float, qv: Array, discrete_states: Array) -> Array:
@@ -395,12 +394,12 @@ class Tangent:
 
     def _compute_variable_scales(self) -> Array:
         """Return the scales (2m + n_clearances,) of y and δ̇⁻, by which differences are divided for norms."""
-        largest, crossing = float(self.measure.scales[: self.measure.n].max()), self.measure.crossing_time
-        q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
-        return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
+        largest, crossing = float(self.norm.scales[: self.norm.n].max()), self.norm.crossing_time
+        q = largest * np.where(self.flow.is_angle, 1.0 / self.norm.size, 1.0)
+        return np.concatenate([q, q / crossing, np.full(self.flow.n_joints, largest / crossing)])
 
-    def _compare_propagators(self, P: Array, Q: Array) -> float:
-        """Return the norm of the difference of two propagators relative to that of the first, in scaled variables."""
+    def _compute_propagator_difference(self, P: Array, Q: Array) -> float:
+        """Return |P − Q|/|P| (Frobenius, scaled variables) of two propagators without their last row and column."""
         w = self._compute_variable_scales()
         P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
         return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
@@ -416,16 +415,17 @@ class Tangent:
         """
         flow, size = self.flow, 2 * self.flow.m
         (y, q_dep), d = flow.reduce_state(t, state_at_t[0]), z[:size]
-        closed, free = state_at_t[1].copy(), state_at_t[1].copy()
-        closed[joint], free[joint] = approach_speed, np.nan
+        closed_states, open_states = state_at_t[1].copy(), state_at_t[1].copy()
+        closed_states[joint], open_states[joint] = approach_speed, np.nan
         penetration, rate = flow.compute_penetration(joint, t, y, q_dep)
-        h = DIFFERENCE_STEP / self.measure.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
+        h = DIFFERENCE_STEP / self.norm.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
         ends = [np.array(flow.compute_penetration(joint, t, y + s * h * d, q_dep)) for s in (1.0, -1.0)]
         penetration_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
         time_shift = -penetration_slope / rate
         offset = (CLEARANCE_OFFSET * flow.radial_clearances[joint] + 2.0 * abs(penetration)) / abs(rate)  # s
-        drift = flow.compute_rates(t, y, q_dep, free)
+        drift = flow.compute_rates(t, y, q_dep, open_states)
         drift[flow.m :] = 0.0
+        both_states = (open_states, closed_states) if is_onset else (closed_states, open_states)  # before, after
         f = [
             flow.compute_rates(
                 t + s * offset,
@@ -433,7 +433,7 @@ class Tangent:
                 flow.compute_dependent_coordinates(t + s * offset, q_dep),
                 discrete_states,
             )
-            for s, discrete_states in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
+            for s, discrete_states in zip((-1.0, 1.0), both_states, strict=True)
         ]
         z_after = z.copy()
         z_after[:size] -= (f[1] - f[0]) * time_shift
@@ -449,8 +449,8 @@ class Tangent:
         """
         flow, n = self.flow, len(y) // 2
         difference = self._map_tangent_to_bodies(t, y, q_dep, f)
-        difference[self.measure.n :] = 0.0
-        h = DIFFERENCE_STEP / max(self.measure.compute_norm(difference), 1.0 / self.measure.crossing_time)
+        difference[self.norm.n :] = 0.0
+        h = DIFFERENCE_STEP / max(self.norm.compute_norm(difference), 1.0 / self.norm.crossing_time)
         rates = [
             flow.compute_penetration(
                 joint,
@@ -474,12 +474,12 @@ class Tangent:
         d = z[:size]
         if self.transverse:
             f = self.flow.compute_rates(t, y, q_dep, run.memory[-1])
-            d = d - f * self.measure.project_on_flow(
+            d = d - f * self.norm.project_on_flow(
                 self._map_tangent_to_bodies(t, y, q_dep, d), self._map_tangent_to_bodies(t, y, q_dep, f)
             )
-        h = INITIAL_DISTANCE / self.measure.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
+        h = INITIAL_DISTANCE / self.norm.compute_norm(self._map_tangent_to_bodies(t, y, q_dep, d))
         ends = [
-            self.flow.reduce_state(t, self.measure.project_state(t, self.flow.expand_state(t, y + s * h * d, q_dep)))[0]
+            self.flow.reduce_state(t, self.norm.project_state(t, self.flow.expand_state(t, y + s * h * d, q_dep)))[0]
             for s in (1.0, -1.0)
         ]
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
@@ -491,10 +491,10 @@ class Tangent:
         """
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:
-            return np.zeros(2 * self.measure.n)
+            return np.zeros(2 * self.norm.n)
         return self.flow.expand_difference(t, y, q_dep, d, 1e-6 / largest)
 
     def _compute_tangent_norm(self, state: State, z: Array) -> float:
         """Return the norm of the tangent vector z at a state: that of (q, q̇) of all bodies, without δ̇⁻ and t."""
         y, q_dep = self.flow.reduce_state(state.t, flatten_state(state))
-        return self.measure.compute_norm(self._map_tangent_to_bodies(state.t, y, q_dep, z[: 2 * self.flow.m]))
+        return self.norm.compute_norm(self._map_tangent_to_bodies(state.t, y, q_dep, z[: 2 * self.flow.m]))

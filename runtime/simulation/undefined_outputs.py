@@ -86,17 +86,25 @@ class UndefinedOutputs:
             for value in values.values():
                 is_undefined &= np.isfinite(value)
             if is_undefined.any() and not self.counts[k]:
-                self.messages[k] = self._explain(expression, values, samples.t, int(is_undefined.argmax()))
+                self.messages[k] = self._explain_non_finite_value(
+                    expression, values, samples.t, int(is_undefined.argmax())
+                )
             self.counts[k] += int(is_undefined.sum())
 
-    def _explain(self, expression: _Expression, values: dict[str, Array], t: Array, k: int) -> str:
-        """Return why an expression is not a number at sample k, from the values (N,) of its inputs."""
+    def _explain_non_finite_value(self, expression: _Expression, values: dict[str, Array], t: Array, k: int) -> str:
+        """Return a message with value, time and reason for an expression that is not finite at sample k.
+
+        `values`: of its inputs by name, (N,).
+        """
         value = np.broadcast_to(evaluate(expression.tree, values.__getitem__), t.shape)[k]
         explanation = explain_nonfinite_part(self.source, expression.tree, lambda name: float(values[name][k]))
         return f"{expression.name} is not finite ({value}) at t = {t[k]:.9g} s: {explanation}"
 
     def build_notes(self) -> tuple[str, ...]:
-        """Return a note for each expression that is not a number at some sample, after all samples."""
+        """Return a note on the first non-finite sample of each expression that has one, and their number.
+
+        Called after all samples.
+        """
         return tuple(
             message + (f"; it is not finite at {count} of {self.n_samples} samples" if count > 1 else "")
             for message, count in zip(self.messages, self.counts, strict=True)

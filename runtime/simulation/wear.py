@@ -236,15 +236,15 @@ class WearObserver:
 
         The integrals of F_n and F_t over the slip are computed by quadrature of an interpolated motion.
         """
-        x, h = self.interpolant.steps, (end - begin)[:, None]
+        steps, h = self.interpolant.steps, (end - begin)[:, None]
         t = begin[:, None] + h * NODES
-        s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
+        s = ((t - steps.t[k, None]) / (steps.t[k + 1] - steps.t[k])[:, None])[:, :, None]
         q, v = self._interpolate_motion(k, s)
-        discrete_states = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
+        discrete_states = np.repeat(steps.memory[k][:, None], len(NODES), axis=1)
         states = slice(discrete_states.shape[2] - len(self.compiled.source.internal_states), None)
-        discrete_states[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
-        q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, discrete_states))
-        evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, field_names=("clearance",))
+        discrete_states[:, :, states] += s * (steps.memory[k + 1, states] - steps.memory[k, states])[:, None]
+        q_flat, v_flat, states_flat = (array.reshape(t.size, -1) for array in (q, v, discrete_states))
+        evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, states_flat, self.p, field_names=("clearance",))
         columns = dict(zip(CLEARANCE_COLUMNS, evaluation.clearance[:, self.joint_index].T, strict=True))
         F_n, F_t, e_x, e_y, e, v_t, delta = (
             columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")
@@ -265,25 +265,24 @@ class WearObserver:
     def _distribute_loads(self, side: int, angle: Array, half_widths: Array | None, loads: Array) -> None:
         """Add the loads of each quadrature point to the cells of the arc that the contact sweeps on a surface.
 
-        `load` and `friction` of that surface are updated.
-
-        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: those of the contact in rad,
-        or None for contact at a point; `loads` (2, K·points).
+        `load` and `friction` of that surface are updated. `side`: 0 bearing, 1 journal; `angle` (K, points) in rad;
+        `half_widths`: those of the contact in rad, or None for contact at a point; `loads` (2, K·points): normal and
+        tangential force times slip, N·m.
         """
         ends = angle @ NODES_TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
-        worn = distribute_loads(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
-        self.load[side] += worn[0]
-        self.friction[side] += worn[1]
+        cell_loads = distribute_loads(self.requested.points, low.ravel(), high.ravel(), loads, half_widths)
+        self.load[side] += cell_loads[0]
+        self.friction[side] += cell_loads[1]
 
     def _interpolate_motion(self, k: Array, s: Array) -> tuple[Array, Array]:
         """Return q and q̇ (K, points, n) at fractions s (K, points, 1) of the intervals after states k (K,).
 
         They are Hermite polynomials of degree five through positions, velocities and accelerations.
         """
-        x, a = self.interpolant.steps, self.interpolant.run.a[1:]
-        h = (x.t[k + 1] - x.t[k])[:, None, None]
-        q0, q1, v0, v1, a0, a1 = (array[rows][:, None] for array in (x.q, x.v, a) for rows in (k, k + 1))
+        steps, a = self.interpolant.steps, self.interpolant.run.a[1:]
+        h = (steps.t[k + 1] - steps.t[k])[:, None, None]
+        q0, q1, v0, v1, a0, a1 = (array[rows][:, None] for array in (steps.q, steps.v, a) for rows in (k, k + 1))
         r0 = q1 - q0 - h * v0 - 0.5 * h**2 * a0  # error of a parabola from the first state at the second
         r1, r2 = h * (v1 - v0 - h * a0), h**2 * (a1 - a0)  # errors of its first and second derivative
         c3, c4, c5 = 10 * r0 - 4 * r1 + 0.5 * r2, -15 * r0 + 7 * r1 - r2, 6 * r0 - 3 * r1 + 0.5 * r2

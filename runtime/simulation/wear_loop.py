@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,7 +66,7 @@ class WearModel:
         """Return the wear depths (m) of a round from the loads of one run: (points,) over the cells, (n_angles,) over
         the contour.
 
-        Depths over the contour are averaged and smoothed.
+        Depths are `scale` times those of the loads; over the contour they are averaged and smoothed.
         """
         depth = self.scale * loads.compute_depth(0, self.law, self.rate)
         return depth, smooth_depths(average_depths_over_arcs(depth, n_angles), self.passes)
@@ -131,6 +131,14 @@ def wear_loop(
     return loop.build_result()
 
 
+class _JointSizes(NamedTuple):
+    """Dimensions of a joint in each run, (n_runs,), in m; NaN for failed runs."""
+
+    bearing_radius: Array
+    length: Array
+    journal_radius: Array
+
+
 class WearLoop:
     """Repeat the same runs, each round with the contours that the last one left."""
 
@@ -142,7 +150,7 @@ class WearLoop:
         self.journals: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
         self.works: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
         self.peaks: dict[str, list[Array]] = {joint: [] for joint in wear_model.joints}
-        self.sizes: dict[str, Array] = {}
+        self.sizes: dict[str, _JointSizes] = {}
         self.failures: dict[int, str] = {}
 
     def run_round(self, parameters: ParameterSets, t_end: Any, **options: Any) -> Batch:
@@ -179,13 +187,14 @@ class WearLoop:
             self.contours[joint].append(np.array(np.broadcast_to(self.given[joint], (n, n_angles))))
         depth, contour_depth = np.full((n, self.wear_model.points), np.nan), np.full((n, n_angles), np.nan)
         work, journal = np.full(n, np.nan), np.full_like(depth, np.nan)
-        sizes = self.sizes.setdefault(joint, np.full((3, n), np.nan))
+        sizes = self.sizes.setdefault(joint, _JointSizes(*np.full((3, n), np.nan)))
         for i in (i for i in range(n) if i not in self.failures):
             loads = batch.rubbed[i][index]
             depth[i], contour_depth[i] = self.wear_model.compute_depths(loads, n_angles)
             work[i] = (loads.load if self.wear_model.law == LAWS[0] else loads.friction)[0].sum()
             journal[i] = self.wear_model.scale * loads.compute_depth(1, self.wear_model.law, self.wear_model.rate)
-            sizes[:, i] = loads.radii[0], loads.length, loads.radii[1]
+            sizes.bearing_radius[i], sizes.journal_radius[i] = loads.radii
+            sizes.length[i] = loads.length
         joint_index = [clearance.name for clearance in batch.source.clearances].index(joint)
         self.depths[joint].append(depth)
         self.journals[joint].append(journal)
@@ -214,10 +223,10 @@ class WearLoop:
                 np.stack(self.depths[joint]),
                 np.stack(self.works[joint]),
                 np.stack(self.peaks[joint]),
-                self.sizes[joint][0],
-                self.sizes[joint][1],
+                self.sizes[joint].bearing_radius,
+                self.sizes[joint].length,
                 np.stack(self.journals[joint]),
-                self.sizes[joint][2],
+                self.sizes[joint].journal_radius,
             )
             for joint in wear_model.joints
         }

@@ -33,14 +33,14 @@ GROUPS: dict[str, Callable[[str], bool]] = {
 class Axis:
     """An axis with its values (SI, ascending) and the addresses that it sets, each to the value times its ratio.
 
-    `words`: the names of a choice, such as a material; the values are indices into it.
+    `option_names`: the names of a choice, such as a material; the values are indices into it.
     """
 
     name: str
     values: tuple[float, ...]
     unit: str
     ratios: tuple[tuple[str, float], ...] = ()
-    words: tuple[str, ...] = ()
+    option_names: tuple[str, ...] = ()
 
     @property
     def is_method_setting(self) -> bool:
@@ -52,11 +52,11 @@ class Axis:
     def build_parameters(self, value: float) -> dict[str, float | str]:
         """Return the parameters, address to value, that `simulate` needs for one value of the axis.
 
-        Each address gets the value times its ratio. For a choice, the value is an index and each address gets the word
+        Each address gets the value times its ratio. For a choice, the value is an index and each address gets the name
         at that index. The result is empty for `step`, `rtol`, and the axis of clearances of a scene without play.
         """
-        if self.words:
-            return {address: self.words[int(value)] for address, _ in self.ratios}
+        if self.option_names:
+            return {address: self.option_names[int(value)] for address, _ in self.ratios}
         return {address: value * ratio for address, ratio in self.ratios}
 
 
@@ -106,7 +106,7 @@ def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | 
             raise BadValueError(f"axis {axis_text!r}: a choice by name has no range: expected {name}={names}")
         return make_axis(simulation, name.strip(), value_list.split(","), parameters)
     ends, colon, count = value_list.partition(":")
-    parameter = _find_leading_parameter(simulation.source, name.strip())
+    parameter = _find_axis_parameter(simulation.source, name.strip())
     values = [
         read_parameter_value(_parse_quantity(part), parameter)
         for part in (ends.split("..") if ".." in ends else ends.split(","))
@@ -181,7 +181,7 @@ def _drop_unused_materials(source: KernelSource, p: Array, indices: list[int]) -
     )
 
 
-def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter:
+def _find_axis_parameter(source: KernelSource, name: str) -> RuntimeParameter:
     """Return the parameter whose unit and dimension the values of the axis `name` have.
 
     It is a new RuntimeParameter for `step` (s) and `rtol` (no dimension), else the first parameter that the axis sets.

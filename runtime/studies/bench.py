@@ -71,10 +71,10 @@ class SceneBench:
 
     scene: str
     t_end: float
-    why: str  # reason for the end of the window, for display
+    end_reason: str  # reason for the end of the window, for display
     rows: tuple[Row, ...]
     references: tuple[Setting, ...]
-    agreement: Error  # difference of the two references
+    reference_difference: Error  # difference of the two references
     contact: float  # s, the shortest contact in the window; NaN: none
     rhs: tuple[RhsTime, ...]
     left_out: tuple[str, ...] = ()  # sentences: omitted cross-checks, or omitted tight tolerances of them
@@ -99,15 +99,17 @@ class SceneBench:
         """Return all rows of a method, including failed ones, from the longest step or loosest tolerance on."""
         return [row for row in self.rows if row.setting.method == method]
 
-    def estimate_order(self, measure: str, method: str = "rk4") -> float:
+    def estimate_order(self, error_name: str, method: str = "rk4") -> float:
         """Return the observed order of convergence of a method: the slope of log(error) over log(step or tolerance).
 
-        measure: "motion", "path" or "force". Only resolved errors below MAX_ORDER_ERROR count. NaN for fewer than three
-        of them, or if their standard deviation from the regression line is MAX_LINE_DEVIATION or more, as for a stiff
-        scene at its stability limit.
+        error_name: "motion", "path" or "force". Only resolved errors below MAX_ORDER_ERROR count. NaN for fewer than
+        three of them, or if their standard deviation from the regression line is MAX_LINE_DEVIATION or more, as for a
+        stiff scene at its stability limit.
         """
-        points = [(row.setting.value, getattr(row.error, measure)) for row in self.list_rows(method) if not row.failure]
-        log_points = np.log([(h, e) for h, e in points if self.is_resolved(measure, e) and e < MAX_ORDER_ERROR])
+        points = [
+            (row.setting.value, getattr(row.error, error_name)) for row in self.list_rows(method) if not row.failure
+        ]
+        log_points = np.log([(h, e) for h, e in points if self.is_resolved(error_name, e) and e < MAX_ORDER_ERROR])
         if len(log_points) < 3:
             return NAN
         polynomial = np.polyfit(log_points[:, 0], log_points[:, 1], 1)
@@ -117,12 +119,12 @@ class SceneBench:
             else NAN
         )
 
-    def is_resolved(self, measure: str, error: float) -> bool:
+    def is_resolved(self, error_name: str, error: float) -> bool:
         """Return whether an error exceeds the uncertainty: RESOLUTION_FACTOR times the difference of the references.
 
-        measure: "motion", "path" or "force". False for NaN.
+        error_name: "motion", "path" or "force". False for NaN.
         """
-        return error > RESOLUTION_FACTOR * getattr(self.agreement, measure)
+        return error > RESOLUTION_FACTOR * getattr(self.reference_difference, error_name)
 
     def find_row(self, setting: Setting) -> Row | None:
         """Return the row with the method and, to rounding, the value of `setting`; None if it was not measured."""
@@ -134,7 +136,7 @@ class SceneBench:
         The largest of the three error measures counts. NaN if no successful row of the method is as accurate, or if
         RESOLUTION_FACTOR times the difference of the references exceeds `error`.
         """
-        if any(RESOLUTION_FACTOR * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
+        if any(RESOLUTION_FACTOR * getattr(self.reference_difference, m) > error for m in ("motion", "path", "force")):
             return NAN
         return min(
             (r.seconds for r in self.list_rows(method) if not r.failure and r.error.largest <= error), default=NAN
@@ -170,8 +172,8 @@ def measure_scene(
             simulation, parameters, KINEMATIC_SAMPLE_COUNTS[:3] if quick else KINEMATIC_SAMPLE_COUNTS, t_end, progress
         )
     selected, left_out = select_methods(simulation, methods, quick)
-    usual = list_bench_steps(simulation, parameters, quick)
-    steps = sorted(check_numbers(steps, "steps") or usual, reverse=True)
+    default_steps = list_bench_steps(simulation, parameters, quick)
+    steps = sorted(check_numbers(steps, "steps") or default_steps, reverse=True)
     tolerances = sorted(
         check_numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True
     )
@@ -203,8 +205,8 @@ def list_bench_steps(
 
     With `quick` they begin at the default step of the scene itself. `parameters` None: the values of the file.
     """
-    usual = find_default_step(simulation, parameters)
-    return list_round_numbers(usual * (1 if quick else MIN_STEP_FACTOR), usual * MAX_STEP_FACTOR)
+    default_step = find_default_step(simulation, parameters)
+    return list_round_numbers(default_step * (1 if quick else MIN_STEP_FACTOR), default_step * MAX_STEP_FACTOR)
 
 
 def select_references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
@@ -225,9 +227,9 @@ def _measure_settings(
 ) -> SceneBench:
     """Run the two references, then measure every setting against them, and return the rows of the scene.
 
-    The shortest contact is that of the first successful reference. If a reference failed, the agreement is infinite,
-    so no error counts as resolved. Ctrl-C during the references raises KeyboardInterrupt; later it leaves out the
-    remaining settings and the times of the right-hand side.
+    The shortest contact is that of the first successful reference. If a reference failed, the reference_difference is
+    infinite, so no error counts as resolved. Ctrl-C during the references raises KeyboardInterrupt; later it leaves out
+    the remaining settings and the times of the right-hand side.
     """
     count = len(settings) + len(reference_settings)
 
@@ -243,12 +245,12 @@ def _measure_settings(
 
     reference_attempts = [run_setting(index, setting) for index, setting in enumerate(reference_settings)]
     successful = [a for a in reference_attempts if a.run is not None and not a.failure]
-    agreement, contact = Error(math.inf, math.inf, math.inf), NAN
+    reference_difference, contact = Error(math.inf, math.inf, math.inf), NAN
     if successful and successful[0].run is not None:
         lengths = successful[0].run.impacts["t_off"] - successful[0].run.impacts["t_on"]
         contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
     if len(successful) == 2 and successful[0].run is not None and successful[1].run is not None:
-        agreement = compare_runs(successful[0].run, successful[1].run)
+        reference_difference = compare_runs(successful[0].run, successful[1].run)
     rows, left_out, missing = _measure_rows(
         window, settings, successful, lambda k, one: run_setting(len(reference_settings) + k, one)
     )
@@ -257,10 +259,10 @@ def _measure_settings(
     return SceneBench(
         name,
         window.t_end,
-        window.why,
+        window.end_reason,
         tuple(rows),
         tuple(reference_settings),
-        agreement,
+        reference_difference,
         contact,
         rhs,
         tuple(left_out),
@@ -281,18 +283,22 @@ def _measure_rows(
     out. settings: of one method from the loosest tolerance on.
     """
     rows: list[Row] = []
-    slow: dict[str, str] = {}
+    omissions: dict[str, str] = {}
     for k, setting in enumerate(settings):
-        if setting.method in slow:
+        if setting.method in omissions:
             continue
         try:
             outcome = run_setting(k, setting)
             if outcome.slow:
-                slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {outcome.failure}"
+                omissions[setting.method] = f"{setting.method}: {setting} and tighter left out: {outcome.failure}"
                 continue
             rows.append(_measure_row(window, outcome, references))
         except KeyboardInterrupt:
-            return rows, list(slow.values()), sum(setting_left.method not in slow for setting_left in settings[k:])
+            return (
+                rows,
+                list(omissions.values()),
+                sum(setting_left.method not in omissions for setting_left in settings[k:]),
+            )
         if (
             setting.method in python_driver.NAMES
             and _read_run_time(outcome) > MAX_CROSS_CHECK_S
@@ -301,8 +307,8 @@ def _measure_rows(
             next_setting = settings[k + 1]
             if next_setting.method == setting.method:
                 reason = f"{setting} took {_read_run_time(outcome):.2g} s"
-                slow[setting.method] = f"{setting.method}: {next_setting} and tighter left out: {reason}"
-    return rows, list(slow.values()), 0
+                omissions[setting.method] = f"{setting.method}: {next_setting} and tighter left out: {reason}"
+    return rows, list(omissions.values()), 0
 
 
 def _read_run_time(attempt: Attempt) -> float:

@@ -94,7 +94,7 @@ class VerdictMap(_Verdicts):
         column_index = self.columns.values.index(column_value) if column_value == column_value else 0
         return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row_value)]
 
-    def find_largest_stable_row(self, column_value: float) -> float:
+    def find_stability_limit(self, column_value: float) -> float:
         """Return the stability limit of a column: the largest row value up to which all cells of the column are stable.
 
         NaN if the cell at the smallest row value is not stable. Raises KeyError for a column value that is not on the
@@ -250,7 +250,7 @@ def compute_verdict_box(
     )
     simulation = simulation.full if full else simulation
 
-    def find_point_parameters(point: Mapping[str, float]) -> dict[str, float | str]:
+    def build_point_parameters(point: Mapping[str, float]) -> dict[str, float | str]:
         """Return the parameters of `simulate` at a point of the box, on top of `parameters`.
 
         A range of a group sets all addresses of the group.
@@ -265,16 +265,16 @@ def compute_verdict_box(
 
     def judge_one_point(point: Mapping[str, float], progress: ReportProgress) -> Cell:
         """Run and judge one point of the box in a worker thread, and return its cell."""
-        return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, CPU_LIMIT_S, progress)
+        return judge_point(simulation, build_point_parameters(point), t_long, setting, limits, CPU_LIMIT_S, progress)
 
     check_memory_of_cells(2.0 ** len(ranges) + count)
     points = [*list_corners(ranges), *sample_sobol_points(ranges, count)]
     for point in points:
-        compute_parameter_values(simulation.compiled, find_point_parameters(point))
+        compute_parameter_values(simulation.compiled, build_point_parameters(point))
     with TaskPool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
         cells_or_none = pool.map_in_threads(judge_one_point, points)
     cells = tuple(
-        cell or make_missing_cell(find_point_parameters(point), setting)
+        cell or make_missing_cell(build_point_parameters(point), setting)
         for cell, point in zip(cells_or_none, points, strict=True)
     )
     return VerdictBox(simulation.source.scene, setting, tuple(ranges), tuple(points), cells, t_long, full)

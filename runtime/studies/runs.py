@@ -97,7 +97,7 @@ class SceneWindow:
     simulation: Simulation
     t_end: float
     parameters: Parameters = field(default_factory=dict)
-    why: str = ""  # reason for the end of the window, for display: "the first 4 contacts", "no contact" or ""
+    end_reason: str = ""  # reason for the end of the window, for display: "the first 4 contacts", "no contact" or ""
     limit: float = math.inf  # s, maximum processor time of a run
     timing_budget: float = TIMING_BUDGET_S  # s, in total for the repetitions of a timed run
 

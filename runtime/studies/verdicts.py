@@ -170,8 +170,8 @@ def _find_faults(
 
 def find_largest_errors(errors: Sequence[Error]) -> Error:
     """Return the largest finite motion, path and force error over several pairs of runs; NaN where none is finite."""
-    measures = ("motion", "path", "force")
-    finite_values = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)
+    names = ("motion", "path", "force")
+    finite_values = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in names)
     return Error(*(max(values, default=NAN) for values in finite_values))
 
 

@@ -99,7 +99,9 @@ def _yield_parameter_changes(
     candidates = [
         parameter
         for parameter in source.parameters
-        if not (parameter.follows or parameter.words) and parameter.default != 0.0 and _may_vary(parameter.address)
+        if not (parameter.follows or parameter.words)
+        and parameter.default != 0.0
+        and _is_address_varied(parameter.address)
     ]
     for spread in MAX_RELATIVE_CHANGES:
         changed_indices = rng.permutation(len(candidates))[:MAX_CHANGED_PARAMETERS]
@@ -107,14 +109,14 @@ def _yield_parameter_changes(
         time_fraction = float(rng.uniform(0.15, 0.85))
         changed = [(candidates[k], x) for k, x in zip(changed_indices, factors, strict=True)]
         yield (
-            {parameter.address: new for parameter, x in changed if (new := _change_value(parameter, x, units))},
+            {parameter.address: new for parameter, x in changed if (new := _scale_default_value(parameter, x, units))},
             time_fraction,
         )
     yield {}, float(rng.uniform(0.15, 0.85))
     yield {}, 0.05
 
 
-def _may_vary(address: str) -> bool:
+def _is_address_varied(address: str) -> bool:
     """Return whether the value at an address may be varied: a parameter, or length, mass or inertia of a body."""
     match address.split("."):
         case ["parameters", _]:
@@ -124,7 +126,7 @@ def _may_vary(address: str) -> bool:
     return False
 
 
-def _change_value(parameter: RuntimeParameter, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
+def _scale_default_value(parameter: RuntimeParameter, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
     """Return the default value times a factor as text, with two digits and its unit; "" if it equals the file's value.
 
     units: unit and its value in SI by address; others have the unit of the parameter.

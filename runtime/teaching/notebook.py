@@ -24,7 +24,7 @@ from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.printers import find_fraction_of_pi
 from gudgeon.generator.targets.latex.write import make_primed_symbols_table
 from gudgeon.language.text_output import format_one_line
-from gudgeon.teaching.sympy_text import assign_names, format_expression, format_number
+from gudgeon.teaching.sympy_text import assign_python_names, format_expression, format_number
 
 Cell = tuple[str, str]  # "markdown" or "code", text
 MAX_LINE_WIDTH = 100
@@ -60,7 +60,7 @@ def write_notebook(model: Model, mechanism: str) -> str:
 
 def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     """Yield kind ("markdown" or "code") and text of each cell of the notebook, in order."""
-    scene, notation, names = model.scene, make_notation(model), assign_names(model)
+    scene, notation, names = model.scene, make_notation(model), assign_python_names(model)
     title = escape_markdown(format_one_line(scene.mechanism.title or scene.mechanism.name))
     yield (
         "markdown",
@@ -116,14 +116,14 @@ def _write_coordinates_code(model: Model, notation: Notation, names: dict[sp.Sym
 
 def _write_column(entries: list[str]) -> str:
     """Return the Python text of a column vector of SymPy, with as many entries in a line as fit."""
-    if sum(len(item) + 2 for item in entries) < MAX_LINE_WIDTH:
+    if sum(len(entry) + 2 for entry in entries) < MAX_LINE_WIDTH:
         return f"sp.Matrix([{', '.join(entries)}])"
     lines, line = list[str](), ""
-    for item in entries:
-        if line and len(line) + len(item) + 2 > MAX_LINE_WIDTH:
+    for entry in entries:
+        if line and len(line) + len(entry) + 2 > MAX_LINE_WIDTH:
             lines.append(line)
             line = ""
-        line += f"{item}, "
+        line += f"{entry}, "
     return "\n    ".join(("sp.Matrix([", *(x.rstrip() for x in (*lines, line)))) + "\n])"
 
 
@@ -152,13 +152,13 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
     """Yield the cells of constraint equations: two for each joint or drive, then the column Phi of all; none without
     rows.
     """
-    mechanism, parts = model.scene.mechanism, list[str]()
+    mechanism, entries = model.scene.mechanism, list[str]()
     if not model.rows:
         return
     yield "markdown", "## Constraints\n\nThe mechanism is closed while Φ(q, t) = 0, joint by joint, drive by drive."
     for (owner, kind), group in groupby(model.rows, key=lambda row: (row.owner, row.kind)):
         rows, name = list(group), f"Phi_{owner}"
-        parts.append(f"*{name}")
+        entries.append(f"*{name}")
         if kind == "drive":
             title, code = f"Drive {owner}", None
         else:
@@ -178,7 +178,7 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
         )
         explicit = [format_expression(row.phi, model, names) for row in rows]
         yield "code", code or f"{name} = {_write_column_by_lines(explicit)}"
-    yield "code", f"Phi = {_write_column(parts)}\nPhi"
+    yield "code", f"Phi = {_write_column(entries)}\nPhi"
 
 
 def _write_revolute_code(
@@ -228,11 +228,11 @@ def _yield_equation_of_motion_cells(model: Model, names: dict[sp.Symbol, str]) -
 
 def format_document(document: Document) -> str:
     """Return a whole document as Markdown: title, facts, and its sections with headings by level."""
-    parts = [f"# {escape_markdown(document.title)}", *map(format_text, document.facts)]
+    blocks = [f"# {escape_markdown(document.title)}", *map(format_text, document.facts)]
     for section in document.sections:
-        parts.append(f"{'#' * (section.level + 1)} {escape_markdown(section.title)}")
-        parts += map(format_block, section.blocks)
-    return "\n\n".join(parts) + "\n"
+        blocks.append(f"{'#' * (section.level + 1)} {escape_markdown(section.title)}")
+        blocks += map(format_block, section.blocks)
+    return "\n\n".join(blocks) + "\n"
 
 
 def format_block(block: Block) -> str:
@@ -290,7 +290,7 @@ def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
         yield "code", _write_functions_code(model, massless)
         yield "code", _write_numpy_comparison(model, mechanism)
     else:
-        yield "code", _write_load_code(model, mechanism)
+        yield "code", _write_load_and_print_code(model, mechanism)
     yield "markdown", "## The compiled simulator\n\nThe same equations as C, integrated or solved at each sample."
     yield "code", "run = simulation.simulate()\nrun"
     if model.rows:
@@ -302,18 +302,19 @@ def _write_functions_code(model: Model, massless: bool) -> str:
 
     massless: without M and g.
     """
-    parts = ["Phi", "Phi_q", "nu", "gamma"] if massless else ["Phi", "Phi_q", "nu", "gamma", "M", "g"]
+    matrix_names = ["Phi", "Phi_q", "nu", "gamma"] if massless else ["Phi", "Phi_q", "nu", "gamma", "M", "g"]
+    assignments = ", ".join(f"{name}={name}" for name in matrix_names)
     return (
         "def function(matrix):\n"
         '    """Return a NumPy function of t, q and q̇ for a matrix."""\n'
         '    instants = {"DiracDelta": lambda *_: 0.0}  # impulses at jumps of a rate are left out\n'
         '    compiled = sp.lambdify((t, [*q], [*v]), matrix.subs(numbers), [instants, "numpy"])\n'
         "    return lambda t, q, v: np.array(compiled(t, q, v), float)\n\n\n"
-        f"derived = {{name: function(matrix) for name, matrix in dict({', '.join(f'{x}={x}' for x in parts)}).items()}}"
+        f"derived = {{name: function(matrix) for name, matrix in dict({assignments}).items()}}"
     )
 
 
-def _write_load_code(model: Model, mechanism: str) -> str:
+def _write_load_and_print_code(model: Model, mechanism: str) -> str:
     """Return the Python text of the cell that loads the scene and prints its NumPy functions, without a comparison."""
     return (
         "import gudgeon\n\n"

@@ -81,8 +81,8 @@ def _make_mobility_question(subject: Subject) -> Question:
         PHI_Q,
         " agree?",
     )
-    numbers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
-    return Question("Count the degrees of freedom", (requested,), tuple(solved), numbers)
+    answers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
+    return Question("Count the degrees of freedom", (requested,), tuple(solved), answers)
 
 
 def _format_owners(subject: Subject) -> str:
@@ -129,16 +129,16 @@ def _make_jacobian_question(subject: Subject) -> Question:
 
     Formulas over MAX_CELL_WIDTH characters are below the table; those over MAX_OPERATIONS are left out.
     """
-    model, drawn = subject.model, subject.drawn
+    model, exercise = subject.model, subject.exercise
     compiled = subject.simulation.compiled
-    values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
+    values = compiled.phi_q(exercise.t, exercise.q, exercise.p)
+    errors = exercise.estimate_rounding_uncertainty(lambda q, v: compiled.phi_q(exercise.t, q, exercise.p))
     column_of = {q: k for k, q in enumerate(model.q)}
-    numbers, rows, below = dict[str, float](), [], list[Block]()
+    answers, rows, below = dict[str, float](), [], list[Block]()
     for k, row in subject.selected_rows:
         for q in sorted(row.phi_q, key=column_of.__getitem__):
             x = float(values[k - 1, column_of[q]])
-            numbers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
+            answers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
             coordinate = subject.notation.format_expression(q)
             left = Formula(rf"\partial \Phi_{{{k}}} / \partial {coordinate.latex}", f"∂Φ_{k}/∂{coordinate.text}")
             entry = subject.notation.expand_symbols(row.phi_q[q])
@@ -151,7 +151,7 @@ def _make_jacobian_question(subject: Subject) -> Question:
             shown = subject.format_number(x, uncertainty=errors[k - 1, column_of[q]])
             rows.append(make_row(left, formula, shown, _find_entry_unit(row.unit, column_of[q] % 3)))
     requested = [
-        make_paragraph(f"At {drawn.t:g} s the bodies are at"),
+        make_paragraph(f"At {exercise.t:g} s the bodies are at"),
         *tabulate_positions(subject, shows_rates=False),
         make_paragraph(
             "What entries of ",
@@ -164,7 +164,7 @@ def _make_jacobian_question(subject: Subject) -> Question:
         *make_tables(make_row("entry", "", "value", "unit"), rows),
         *below,
     ]
-    return Question("The Jacobian at a position", tuple(requested), tuple(solved), numbers)
+    return Question("The Jacobian at a position", tuple(requested), tuple(solved), answers)
 
 
 def _find_entry_unit(row_unit: str, axis: int) -> str:
@@ -174,14 +174,14 @@ def _find_entry_unit(row_unit: str, axis: int) -> str:
 
 def _make_gamma_question(subject: Subject) -> Question:
     """Build the question for γ in the selected equations; the solution has no formulas over MAX_OPERATIONS."""
-    drawn = subject.drawn
+    exercise = subject.exercise
     compiled = subject.simulation.compiled
-    values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    values = compiled.gamma(exercise.t, exercise.q, exercise.v, exercise.p)
+    errors = exercise.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(exercise.t, q, v, exercise.p))
     scale = float(np.abs(values).max())
-    numbers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
+    answers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
     for k, row in subject.selected_rows:
-        numbers[row.name] = float(values[k - 1])
+        answers[row.name] = float(values[k - 1])
         gamma = format_gamma(row, subject.model, subject.notation)
         if gamma != 0 and sp.count_ops(gamma) <= MAX_OPERATIONS:
             formula = subject.make_equation(make_indexed_symbol("gamma", k), gamma)
@@ -190,25 +190,25 @@ def _make_gamma_question(subject: Subject) -> Question:
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
         solved.append(
-            subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, errors[k - 1])
+            subject.make_value_equation(make_indexed_symbol("gamma", k), answers[row.name], unit, scale, errors[k - 1])
         )
     requested = [
-        make_paragraph(f"At the same time, {drawn.t:g} s, the rates are"),
+        make_paragraph(f"At the same time, {exercise.t:g} s, the rates are"),
         *tabulate_positions(subject, shows_rates=True),
         make_paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
-    return Question("γ", tuple(requested), tuple(solved), numbers)
+    return Question("γ", tuple(requested), tuple(solved), answers)
 
 
 def _make_play_question(subject: Subject) -> Iterator[Question]:
     """Yield the question for the eccentricity of one randomly chosen revolute joint with play; nothing without one."""
-    drawn = subject.drawn
+    exercise = subject.exercise
     journals = [c.name for c in subject.model.clearances if c.wall is None]
     if not journals:
         return
     joint = subject.rng.permutation(np.array(journals, object))[0]
-    ex, ey = (float(f"{drawn.run[f'{joint}.e{axis}'][-1]:.4g}") for axis in "xy")
-    clearance = float(drawn.run.constants[f"{joint}.c"])
+    ex, ey = (float(f"{exercise.run[f'{joint}.e{axis}'][-1]:.4g}") for axis in "xy")
+    clearance = float(exercise.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))
     requested = make_paragraph(
         f"The centre of the journal of {joint} is displaced from that of its bearing by (",
@@ -226,8 +226,8 @@ def _make_play_question(subject: Subject) -> Iterator[Question]:
         subject.make_value_equation(make_symbol_name("delta", joint), e - clearance, "m"),
         make_paragraph(f"As δ is {'positive' if e > clearance else 'negative'}, {touch}."),
     )
-    numbers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
-    yield Question("A joint with play", (requested,), solved, numbers)
+    answers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
+    yield Question("A joint with play", (requested,), solved, answers)
 
 
 def list_abbreviations(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:
@@ -334,12 +334,12 @@ def make_indexed_symbol(quantity: str, index: int) -> Formula:
 
 def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: bool = False) -> list[Block]:
     """Return a table of positions (shows_rates: rates) of the bodies in the selected equations, or of the others."""
-    model, drawn = subject.model, subject.drawn
+    model, exercise = subject.model, subject.exercise
     selected_coordinates = {s for _, row in subject.selected_rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
     if shows_rates:
         header = ("body", "x, m/s", "y, m/s", "angle, rad/s", "")
-    values, rows = drawn.v if shows_rates else drawn.q, []
+    values, rows = exercise.v if shows_rates else exercise.q, []
     for body in model.bodies:
         if bool(selected_coordinates & set(body.q)) != of_other_bodies:
             body_values = values[body.index : body.index + 3]
@@ -350,8 +350,8 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 
 def _make_acceleration_question(subject: Subject) -> Question:
     """Build the question for the largest acceleration, preferably angular, of a coordinate that no drive prescribes."""
-    model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
-    a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
+    model, exercise, compiled = subject.model, subject.exercise, subject.simulation.compiled
+    a, driven = exercise.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
     candidates = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
     if not candidates or np.abs(a[candidates]).max() <= ROUNDING_TOL * np.abs(a).max():
         candidates = [k for k in range(len(a)) if model.q[k] not in driven] or [*range(len(a))]
@@ -365,14 +365,15 @@ def _make_acceleration_question(subject: Subject) -> Question:
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
             ACCELERATIONS,
-            f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {quantity} {name}?",
+            f" at {exercise.t:g} s, by hand or by computer, and solve them: how large is the {quantity} {name}?",
         ),
     ]
-    phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
+    phi_q = compiled.phi_q(exercise.t, exercise.q, exercise.p)
+    gamma = compiled.gamma(exercise.t, exercise.q, exercise.v, exercise.p)
     symbol_names = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown_rows = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale = float(np.abs(gamma).max())
-    errors = drawn.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    errors = exercise.estimate_rounding_uncertainty(lambda q, v: compiled.gamma(exercise.t, q, v, exercise.p))
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
@@ -414,25 +415,25 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
 
     Nothing is yielded without masses, or if redundancy leaves all reactions undetermined.
     """
-    source, drawn, mechanism = subject.simulation.source, subject.drawn, subject.model.scene.mechanism
+    source, exercise, mechanism = subject.simulation.source, subject.exercise, subject.model.scene.mechanism
     open_ = {*source.indeterminate, *(joint.joint for joint in source.clearances)}
     joint_names = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
-    joint_names = [name for name in dict.fromkeys(joint_names) if f"{name}.Fx" in drawn.run]
+    joint_names = [name for name in dict.fromkeys(joint_names) if f"{name}.Fx" in exercise.run]
     if source.massless_bodies or not joint_names:
         return
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
-    F = [float(drawn.run[f"{name}.{component}"][-1]) for component in ("Fx", "Fy", "F")]
-    requested: list[Block] = []
+    F = [float(exercise.run[f"{name}.{component}"][-1]) for component in ("Fx", "Fy", "F")]
+    blocks: list[Block] = []
     if subject.model.degrees_of_freedom:
-        requested.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
-        requested += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        blocks += [make_paragraph(f"The accelerations at {exercise.t:g} s, of centres of mass and of angles, are")]
+        blocks += _tabulate_by_body(subject, exercise.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        requested.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
+        blocks.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
     if source.clearances or source.frictions:
-        requested.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
-        requested += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
-    requested.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
+        blocks.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
+        blocks += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
+    blocks.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_make_balance_blocks(subject, [k - 1 for k, _ in lambdas]),
@@ -452,16 +453,14 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
         for axis, x in zip("xy", F, strict=False)
     ]
     solved.append(subject.make_value_equation(make_symbol_name("F", name), F[2], "N", F[2]))
-    yield Question(
-        "The force in a joint", tuple(requested), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True))
-    )
+    yield Question("The force in a joint", tuple(blocks), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
 def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
     """Return Φ_qᵀ λ = g − M q̈ as blocks; of more than MAX_SHOWN_ROWS rows those with `requested` multipliers."""
-    model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
-    phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
+    model, exercise, compiled = subject.model, subject.exercise, subject.simulation.compiled
+    phi_q = compiled.phi_q(exercise.t, exercise.q, exercise.p)
+    left = _compute_applied_forces(subject) - np.asarray(compiled.mass(exercise.p)) * exercise.run.a[-1]
     symbol_names = [make_indexed_symbol("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
     shown_rows = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
@@ -477,16 +476,15 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
 
 def _get_multiplier(subject: Subject, row: str) -> float:
     """Return the multiplier of a constraint equation at the end of the run, in N or N·m."""
-    return float(subject.drawn.run[f"lambda.{row}"][-1])
+    return float(subject.exercise.run[f"lambda.{row}"][-1])
 
 
 def _compute_applied_forces(subject: Subject) -> Array:
     """Return the generalized applied forces g = M q̈ + Φ_qᵀ λ (n,) at the last sample of the run, in N and N·m."""
-    drawn, compiled = subject.drawn, subject.simulation.compiled
-    last, rows = drawn.run, [row.name for row in subject.model.rows]
-    multipliers = np.array([_get_multiplier(subject, row) for row in rows])
-    held = compiled.phi_q(last.t[-1], last.q[-1], drawn.p).T @ multipliers if rows else 0.0
-    return np.asarray(compiled.mass(drawn.p) * last.a[-1] + held)
+    p, run, compiled = subject.exercise.p, subject.exercise.run, subject.simulation.compiled
+    multipliers = np.array([_get_multiplier(subject, row.name) for row in subject.model.rows])
+    constraint_forces = compiled.phi_q(run.t[-1], run.q[-1], p).T @ multipliers if len(multipliers) else 0.0
+    return np.asarray(compiled.mass(p) * run.a[-1] + constraint_forces)
 
 
 def _tabulate_by_body(subject: Subject, values: Array, *header: str) -> list[Block]:

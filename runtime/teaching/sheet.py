@@ -65,7 +65,7 @@ class Subject:
     model: Model
     notation: Notation
     simulation: Simulation
-    drawn: ExerciseData
+    exercise: ExerciseData
     rng: np.random.Generator
     owners: tuple[str, ...]  # joints and drives whose constraint equations the questions treat
 
@@ -224,8 +224,10 @@ def _format_driven_quantity(drive: Drive) -> str:
 
 def _build_repetition_blocks(subject: Subject) -> list[Block]:
     """Return a paragraph that lists the drawn parameter values and the time of the sheet, to repeat the run."""
-    drawn = subject.drawn
-    if not drawn.parameters:
-        return [make_paragraph(f"All values are those of the file; the time is {drawn.t:g} s.")]
-    value_texts = [f"{address} = {x}" for address, x in drawn.parameters.items()]
-    return [make_paragraph(f"Drawn: {', '.join(value_texts)}; the time is {drawn.t:g} s. Other values are the file's.")]
+    exercise = subject.exercise
+    if not exercise.parameters:
+        return [make_paragraph(f"All values are those of the file; the time is {exercise.t:g} s.")]
+    value_texts = [f"{address} = {x}" for address, x in exercise.parameters.items()]
+    return [
+        make_paragraph(f"Drawn: {', '.join(value_texts)}; the time is {exercise.t:g} s. Other values are the file's.")
+    ]

@@ -117,12 +117,12 @@ def format_number(value: float) -> str:
     if pi_fraction is None:
         return repr(value).removesuffix(".0")
     count, denominator = pi_fraction
-    above = {1: "sp.pi", -1: "-sp.pi"}.get(count, f"{count}*sp.pi")
-    return above if denominator == 1 else f"{above}/{denominator}"
+    numerator = {1: "sp.pi", -1: "-sp.pi"}.get(count, f"{count}*sp.pi")
+    return numerator if denominator == 1 else f"{numerator}/{denominator}"
 
 
-def assign_names(model: Model) -> dict[sp.Symbol, str]:
-    """Return a unique Python name for each symbol of the constraint equations, masses and forces.
+def assign_python_names(model: Model) -> dict[sp.Symbol, str]:
+    """Return a unique Python name for each symbol of the model: t, coordinates, velocities and parameters.
 
     Names that the notebook uses otherwise get the prefix "its_".
     """

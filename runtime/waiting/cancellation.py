@@ -31,8 +31,8 @@ _reporter: ContextVar[Reporter | None] = ContextVar("reporter", default=None)
 
 
 class CancellationPoll:
-    """Poll for cancellation while C runs: C calls `poll`, whose exception is stored until `raise_stored` raises it in
-    Python.
+    """Poll for cancellation while C runs: C calls `poll`, whose exception is stored until `raise_stored_exception`
+    raises it in Python.
 
     The caller keeps this object until C has returned. C's handle is a weak reference: else the arrays of a run, to
     which `poll` refers, would stay in memory until Python's next search for cycles.
@@ -58,7 +58,7 @@ class CancellationPoll:
             return 1
         return 0
 
-    def raise_stored(self, stopped: bool) -> None:
+    def raise_stored_exception(self, stopped: bool) -> None:
         """Raise the exception that a poll stored, else KeyboardInterrupt if C has `stopped`; called after C returns."""
         raised, self.raised = self.raised, None
         if raised is not None:

@@ -24,7 +24,7 @@ SYMPY_CACHE_SIZE = "20000"  # entries; with the default, 1,000, a large scene ra
 _frozen = False  # whether other code has called gc.freeze; counting the frozen objects takes 10 ms
 
 
-def import_modules_completely(*module_names: str) -> None:
+def import_modules_in_thread(*module_names: str) -> None:
     """Import modules in another thread and wait for it; return at once if they are imported already.
 
     Ctrl-C is raised while waiting, and the thread completes the import. An error of the import is raised here.

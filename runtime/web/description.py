@@ -165,9 +165,9 @@ def _iterate_series_columns(source: KernelSource) -> Iterator[tuple[str, list[An
         if series.stored is not None:
             yield name, [series.unit, *series.stored]
         elif series.evaluated is not None:
-            part, index = series.evaluated
+            field, index = series.evaluated
             row, column = index if len(index) == 2 else (0, index[0])
-            yield name, [series.unit, part, row * widths.get(part, 0) + column]
+            yield name, [series.unit, field, row * widths.get(field, 0) + column]
 
 
 def _format_point_json(source: KernelSource, point: PointInfo) -> list[int]:

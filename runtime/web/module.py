@@ -23,7 +23,7 @@ from gudgeon.waiting.programs import Programs
 
 MODULE = "simulator.wasm"
 # functions that simulator.js calls if the scene has them
-CALLED = (
+EXPORTED_FUNCTIONS = (
     "prepare",
     "mass",
     "phi",
@@ -52,7 +52,7 @@ CALLED = (
     "kinematic_works",
     "kinematic_events",
 )
-DRIVEN = ("rhs",)  # further functions for scenes without degrees of freedom
+KINEMATIC_EXPORTED_FUNCTIONS = ("rhs",)  # further functions for scenes without degrees of freedom
 # No contraction to fused multiply-adds and no fast math, as for libraries (loading/compiler.py). Without unrolled loops
 # a module is a tenth shorter. The stack has the usual size of programs; zig places it first in memory, so that an
 # overflow traps instead of overwriting data.
@@ -126,7 +126,7 @@ def _find_zig() -> Path:
 def _list_export_options(source: KernelSource) -> list[str]:
     """Return the linker options that export the functions that simulator.js calls, if the scene declares them."""
     declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", select_declarations(source)))
-    needed_functions = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
+    needed_functions = EXPORTED_FUNCTIONS + (KINEMATIC_EXPORTED_FUNCTIONS if source.methods == (KINEMATIC,) else ())
     return [f"-Wl,--export=gudgeon_{name}" for name in needed_functions if name in declared_functions]
 
 

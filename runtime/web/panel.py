@@ -51,10 +51,10 @@ def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]
         "rig": rig.to_json_data(),
         "names": list(_iterate_names(rig)),
         "joints": [[name, point] for name, point in points_by_joint.items() if f"{name}.Fx" in run.names],
-        "traces": _choose_first_traces(run),
-        "values": _choose_first_values(run),
+        "traces": _choose_initial_chart_series(run),
+        "values": _choose_initial_value_series(run),
         "seconds": duration if MIN_REAL_TIME <= duration <= MAX_REAL_TIME else DEFAULT_DURATION,
-        "path": _choose_first_path(rig),
+        "path": _choose_initial_path_point(rig),
     }
 
 
@@ -64,7 +64,7 @@ def _list_journals(source: KernelSource) -> list[tuple[str, str]]:
     return [*joints_with_play, *((joint.name, joint.point) for joint in source.joints)]
 
 
-def _choose_first_traces(run: Result) -> list[str]:
+def _choose_initial_chart_series(run: Result) -> list[str]:
     """Return the names of the series in the initial charts: two default series, peaks or drives, a force, Phi.max.
 
     A force without finite sample is left out.
@@ -79,7 +79,7 @@ def _choose_first_traces(run: Result) -> list[str]:
     return [*dict.fromkeys(names), "Phi.max"]
 
 
-def _choose_first_values(run: Result) -> list[str]:
+def _choose_initial_value_series(run: Result) -> list[str]:
     """Return the names of the live values: default series and rates, outputs, peaks, drives, eccentricities, forces.
 
     Names that the run lacks are left out.
@@ -94,7 +94,7 @@ def _choose_first_values(run: Result) -> list[str]:
     return [name for name in dict.fromkeys(candidates) if name in run.names]
 
 
-def _choose_first_path(rig: Rig) -> str:
+def _choose_initial_path_point(rig: Rig) -> str:
     """Return the first named point that no joint or force element uses, whose path is drawn; "" if there is none."""
     points = [
         moving_shape.shape.part.partition(" ")[2]

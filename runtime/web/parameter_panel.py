@@ -141,12 +141,12 @@ class _Units:
             document: Any = parse_yaml(simulation.file.read_bytes(), str(simulation.file))
         except (GudgeonError, OSError):  # the file does not exist any more
             document = {}
-        self.written, unit_counts = dict[str, tuple[str, float]](), dict[str, Counter[tuple[str, float]]]()
+        self.units_in_file, unit_counts = dict[str, tuple[str, float]](), dict[str, Counter[tuple[str, float]]]()
         for parameter in simulation.source.parameters:
             if (unit := _read_unit(document, parameter)) is not None:
-                self.written[parameter.address] = unit
+                self.units_in_file[parameter.address] = unit
                 unit_counts.setdefault(parameter.unit, Counter())[unit] += 1
-        self.usual: Mapping[str, tuple[str, float]] = {
+        self.most_frequent_units: Mapping[str, tuple[str, float]] = {
             si: counter.most_common(1)[0][0] for si, counter in unit_counts.items()
         }
 
@@ -156,10 +156,12 @@ class _Units:
         It is the unit in the file, else the most frequent one of similar parameters, else degrees or a unit of suitable
         size.
         """
-        if parameter.address in self.written:
-            return self.written[parameter.address]
-        if parameter.unit in self.usual and (parameter.unit == "m" or parameter.follows):  # 1/s may be a rate or a gain
-            return self.usual[parameter.unit]
+        if parameter.address in self.units_in_file:
+            return self.units_in_file[parameter.address]
+        if parameter.unit in self.most_frequent_units and (
+            parameter.unit == "m" or parameter.follows
+        ):  # 1/s may be a rate or a gain
+            return self.most_frequent_units[parameter.unit]
         if parameter.address.endswith((".theta", ".angle")):
             return "deg", parse_quantity("1 deg", parameter.address, (0, 0, 0))
         factor, unit = choose_plot_unit(parameter.default, parameter.unit) if parameter.unit != "1/s" else (1.0, "1/s")

@@ -24,7 +24,7 @@ from gudgeon.generator.pipeline import derive_scene, generate_kernel_source
 from gudgeon.generator.targets.json_schema import make_schema
 from gudgeon.generator.targets.latex import render_equations_text
 from gudgeon.loading.shipped import find_shipped_file
-from gudgeon.studies.show.map import list_typed_law_files
+from gudgeon.studies.show.map import list_law_display_paths
 from tests.kinds.own import example_text, forgotten
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -117,7 +117,7 @@ def test_everything_follows_from_it(disc: Path) -> None:
     assert next(s for s in source.parameters if s.address.endswith("damping")).unit == "kg/s"
     shown = render_equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
     assert "any book on vibrations" in shown and "F_n = δ·K + δ̇·D" in shown
-    assert "dashpot" in json.dumps(make_schema()) and list_typed_law_files() == [str(disc.parent / "dashpot.py")]
+    assert "dashpot" in json.dumps(make_schema()) and list_law_display_paths() == [str(disc.parent / "dashpot.py")]
 
 
 def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:

@@ -67,7 +67,7 @@ def test_ctrl_c_is_raised_at_once_and_what_is_imported_comes_to_its_end(monkeypa
 
     monkeypatch.setattr(imports, "import_module", import_module)
     with pytest.raises(KeyboardInterrupt):
-        imports.import_modules_completely("a", "b", "c")
+        imports.import_modules_in_thread("a", "b", "c")
     assert imported == ["a"]
     answered.set()
     for thread in threading.enumerate():
@@ -78,9 +78,9 @@ def test_ctrl_c_is_raised_at_once_and_what_is_imported_comes_to_its_end(monkeypa
 
 def test_what_fails_is_told_and_what_is_there_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ModuleNotFoundError, match="no_such_package"):
-        imports.import_modules_completely("json", "no_such_package")
+        imports.import_modules_in_thread("json", "no_such_package")
     monkeypatch.setattr(imports, "import_module", None)
-    imports.import_modules_completely("json", "signal")
+    imports.import_modules_in_thread("json", "signal")
 
 
 COMMAND = """
@@ -107,7 +107,7 @@ def test_ctrl_c_while_the_command_line_is_imported_is_told_in_a_word() -> None:
 def test_sympy_gets_a_larger_cache_unless_the_user_chose_its_size(user_size: str | None, size: int) -> None:
     """The variable is set during the import of SymPy only."""
     code = (
-        "import os; from gudgeon.waiting.imports import import_modules_completely; import_modules_completely('sympy');"
+        "import os; from gudgeon.waiting.imports import import_modules_in_thread; import_modules_in_thread('sympy');"
         " from sympy.core.cache import SYMPY_CACHE_SIZE; print(SYMPY_CACHE_SIZE, os.environ.get('SYMPY_CACHE_SIZE'))"
     )
     environment = {name: value for name, value in os.environ.items() if name != "SYMPY_CACHE_SIZE"}

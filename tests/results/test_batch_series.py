@@ -60,17 +60,17 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
     plain = EvaluatedSamples.evaluation.func  # type: ignore[attr-defined]
 
     def noted(run: EvaluatedSamples) -> object:
-        requested.append(run.parts)
+        requested.append(run.evaluation_fields)
         return plain(run)
 
     monkeypatch.setattr(EvaluatedSamples, "evaluation", property(noted))
-    first = batch.result.evaluate_samples(0, FIELD_NAMES)
+    first = batch.result.build_run_samples(0, FIELD_NAMES)
     stored = set() if first is None or first.accelerations is None else {"a"}  # by a method that Python drives
     for name in known:
         requested.clear()
         found = batch[name]
-        assert set(requested) <= {known[name].parts} and known[name].parts <= FIELD_NAMES, name
-        assert bool(requested) == bool(known[name].parts - stored), name
+        assert set(requested) <= {known[name].evaluation_fields} and known[name].evaluation_fields <= FIELD_NAMES, name
+        assert bool(requested) == bool(known[name].evaluation_fields - stored), name
         assert found.shape == (len(batch), batch.t.shape[-1])
 
 

@@ -256,8 +256,10 @@ def test_a_rate_that_is_watched_too_is_shown_once(run: Result, ideal: Result) ->
 def test_what_turns_by_rounding_alone_is_noise_where_nothing_turns(ideal: Result) -> None:
     """Beside speeds v over an extent r, what turned as far would have ω = v/r; 1e-9 of it is none."""
     report = compute_scene_report(ideal, None, ("S9.y",))
-    extent = report.scales["m"]
-    assert report.scales["rad/s"] >= report.scales["m/s"] / extent and report.scales["rad"] >= 1.0
+    extent = report.max_magnitudes["m"]
+    assert (
+        report.max_magnitudes["rad/s"] >= report.max_magnitudes["m/s"] / extent and report.max_magnitudes["rad"] >= 1.0
+    )
     assert extent == max(np.abs(ideal.q[:, k]).max() for k in range(ideal.q.shape[1]) if k % 3 < 2)
 
 

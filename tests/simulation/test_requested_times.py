@@ -145,11 +145,11 @@ def test_files_keep_the_given_start(tmp_path: Path) -> None:
         batch.save(tmp_path / "batch.nc")
         for found in (Result.load(tmp_path / "run.nc"), Batch.load(tmp_path / "batch.nc")[1]):
             if start is None:
-                assert found.begun is None
+                assert found.given_start is None
                 continue
-            assert found.begun is not None and found.begun.t == start.t
+            assert found.given_start is not None and found.given_start.t == start.t
             for name in ("q", "v", "state", "memory"):
-                np.testing.assert_array_equal(getattr(found.begun, name), getattr(start, name), name)
+                np.testing.assert_array_equal(getattr(found.given_start, name), getattr(start, name), name)
         assert bool(Result.load(tmp_path / "run.nc").check(100))
 
 

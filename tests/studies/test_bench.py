@@ -154,7 +154,7 @@ def test_bench_observes_the_order_of_runge_and_kutta() -> None:
 @needs_compiler
 def test_errors_fall_with_the_tolerance_until_the_references_leave_them_in_doubt() -> None:
     scene = smooth()
-    assert scene.agreement.motion < 1e-10 and scene.agreement.force < 1e-8
+    assert scene.reference_difference.motion < 1e-10 and scene.reference_difference.force < 1e-8
     for method in USUAL:
         errors = [row.error.motion for row in scene.list_rows(method)]
         assert all(b < a / 3 or not scene.is_resolved("motion", b) for a, b in zip(errors, errors[1:], strict=False))

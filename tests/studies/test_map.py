@@ -55,8 +55,8 @@ def test_film_is_lost_with_the_papers_step_and_not_with_a_short_one() -> None:
         assert found.get_cell(1e-4, c).status is not Status.STABLE
         assert found.get_cell(5e-6, c).status is Status.STABLE
     assert found.get_cell(2e-5, 0.2e-3).status is not Status.STABLE
-    assert found.find_largest_stable_row(0.2e-3) == 5e-6
-    assert found.find_largest_stable_row(C) in (5e-6, 2e-5)  # at the brink: 2e-5 s times 1.4e5 1/s is 2.8
+    assert found.find_stability_limit(0.2e-3) == 5e-6
+    assert found.find_stability_limit(C) in (5e-6, 2e-5)  # at the brink: 2e-5 s times 1.4e5 1/s is 2.8
 
 
 @needs_compiler
@@ -135,9 +135,9 @@ def made(statuses: list[Status]) -> VerdictMap:
 
 def test_largest_stable_step_has_only_stable_ones_below() -> None:
     good, bad = Status.STABLE, Status.INACCURATE
-    assert made([good, good, bad, good]).find_largest_stable_row(C) == pytest.approx(1e-5)
-    assert math.isnan(made([bad, good]).find_largest_stable_row(C))
-    assert made([good, good]).find_largest_stable_row(C) == pytest.approx(1e-5)
+    assert made([good, good, bad, good]).find_stability_limit(C) == pytest.approx(1e-5)
+    assert math.isnan(made([bad, good]).find_stability_limit(C))
+    assert made([good, good]).find_stability_limit(C) == pytest.approx(1e-5)
 
 
 @pytest.mark.parametrize("c", [0.3e-3, 0.5e-3, 1e-3, 7.7e-5])

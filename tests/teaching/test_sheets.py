@@ -50,8 +50,10 @@ def questions(name: str, scene: str, seed: int = 3) -> Mapping[str, Question]:
 
 def at(of: Subject, matrix: sp.Matrix) -> np.ndarray:
     """A matrix of q, q̇ and t as the sheet has them, by SymPy, with the numbers of the run."""
-    slots = {entry.symbol: of.drawn.p[k] for k, entry in enumerate(of.model.parameter_table.entries.values())}
-    values = dict(zip((*of.model.q, *of.model.v), (*of.drawn.q, *of.drawn.v), strict=True)) | {of.model.t: of.drawn.t}
+    slots = {entry.symbol: of.exercise.p[k] for k, entry in enumerate(of.model.parameter_table.entries.values())}
+    values = dict(zip((*of.model.q, *of.model.v), (*of.exercise.q, *of.exercise.v), strict=True)) | {
+        of.model.t: of.exercise.t
+    }
     return np.array(matrix.subs(slots | values).evalf(20), float)
 
 
@@ -110,7 +112,7 @@ def test_jacobian_and_gamma_by_sympy_from_phi_alone(name: str, scene: str) -> No
 def test_forces_and_accelerations_by_the_whole_system(name: str, scene: str) -> None:
     """From positions and rates as they are printed, by SymPy's matrices: M q̈ + Φ_qᵀ λ = g, Φ_q q̈ = γ."""
     of, found = subject(name, scene), questions(name, scene)
-    drawn, source = of.drawn, of.simulation.source
+    drawn, source = of.exercise, of.simulation.source
     phi_q, mass = at(of, of.model.Phi_q), np.diag(at(of, of.model.M))
     if source.degrees_of_freedom == 0:
         q_dd = np.linalg.lstsq(phi_q, at(of, of.model.gamma)[:, 0], rcond=None)[0]
@@ -201,7 +203,7 @@ def test_a_third_parallel_crank_is_one_too_many_for_gruebler(tmp_path: Path) -> 
 
 def test_a_journal_is_where_the_run_has_it() -> None:
     of, found = subject("slider_crank", "dry"), questions("slider_crank", "dry")["A joint with play"].numbers
-    run = of.drawn.run
+    run = of.exercise.run
     assert found["e"] == pytest.approx(run["wristpin.e"][-1], rel=1e-3)
     assert found["ratio"] == pytest.approx(run["wristpin.eps"][-1], rel=1e-3)
 

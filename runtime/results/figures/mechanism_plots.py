@@ -38,7 +38,8 @@ MAX_NAMES = 60  # names that fit in a panel
 def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
     """Return the drawing of the mechanism at a time of the run, with arrows of velocities or forces if requested.
 
-    `t` is a number in s or a text with a unit. Raises BadValueError, UnknownNameError.
+    `t` is a number in s or a text with a unit. Sizes and insets are those for the whole run; joints in contact are
+    highlighted. Raises BadValueError, UnknownNameError.
     """
     velocities, forces = check_flag(velocities, "velocities"), check_flag(forces, "forces")
     configuration, motion = compute_configuration(run, read_time(run, t)), select_configurations(run)
@@ -124,7 +125,7 @@ def _iterate_joint_forces(run: Result, configuration: Configuration) -> Iterator
 def draw_start_sketch(run: Result) -> Sketch:
     """Return the drawing at the start of the run, without insets.
 
-    Names are left out if there are more than MAX_NAMES.
+    All labels are left out if there are more than MAX_NAMES.
     """
     motion = select_configurations(run)
     sketch = make_sketch(motion[0], make_layout(motion), shows_insets=False)

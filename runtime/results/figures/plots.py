@@ -92,7 +92,7 @@ def _get_horizon_within_run(run: Result) -> float | None:
     return horizon if np.isfinite(horizon) and horizon < run.t[-1] else None
 
 
-def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
+def mark_predictability_horizon(ax: Axes, run: Result, colour: str) -> None:
     """Mark the predictability horizon of a run on a time axis: a dotted line, and a grey background after it.
 
     Nothing is drawn if the horizon is unknown or beyond the end.
@@ -235,7 +235,7 @@ def _draw_motion_column(
         )
         for scene, values in values_by_scene.items():
             ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
-            mark_horizon(ax, runs[scene], colours[scene])
+            mark_predictability_horizon(ax, runs[scene], colours[scene])
         quantity_name = f"error of {series}" if compared_scenes else series
         _format_time_axis(
             ax, format_label(quantity_name, text), [runs[scene].t for scene in values_by_scene], row == len(names) - 1
@@ -270,7 +270,7 @@ def _draw_forces(
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
         for scene, run, name in available:
-            mark_horizon(ax, run, colours[scene])
+            mark_predictability_horizon(ax, run, colours[scene])
             for time, peak in joint_curves.find_peaks(run, name):
                 ax.plot([time], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
         if names[0].endswith(".F"):

@@ -31,7 +31,7 @@ from gudgeon.results.figures.plots import (
     draw_orbit,
     find_largest_magnitude,
     format_caption,
-    mark_horizon,
+    mark_predictability_horizon,
 )
 from gudgeon.results.series import choose_default_series, find_rate_names, list_drive_series
 
@@ -115,7 +115,7 @@ class Plot:
             ax.set(xlabel=x_label, ylabel=format_label(names[0] if len(names) == 1 else "", text))
             ax.set_title(format_figure_title(format_caption(run), TITLE_WIDTH))
             if x_label == "t [s]":
-                mark_horizon(ax, run, IDEAL)
+                mark_predictability_horizon(ax, run, IDEAL)
             if len(names) > 1:
                 ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))  # outside: it hides no curve
         return ax

@@ -180,18 +180,20 @@ def _write_csv(path: str | os.PathLike[str], columns_by_run: Iterator[Columns], 
         for k, run_columns in enumerate(columns_by_run):
             columns = list(run_columns.values())
             if k == 0:
-                sample_lines = _format_lines([column[:: max(1, len(column) // N_SAMPLE_ROWS)] for column in columns])
+                sample_lines = _format_csv_lines(
+                    [column[:: max(1, len(column) // N_SAMPLE_ROWS)] for column in columns]
+                )
                 check_disk(
                     Path(path).parent, n_rows * len("".join(sample_lines)) / max(1, len(sample_lines)), "it", path
                 )
                 file.write((",".join(run_columns) + "\n").encode())
             for start in range(0, len(columns[0]), ROWS_PER_WRITE):
                 file.write(
-                    "".join(_format_lines([column[start : start + ROWS_PER_WRITE] for column in columns])).encode()
+                    "".join(_format_csv_lines([column[start : start + ROWS_PER_WRITE] for column in columns])).encode()
                 )
 
 
-def _format_lines(columns: Sequence[Array]) -> list[str]:
+def _format_csv_lines(columns: Sequence[Array]) -> list[str]:
     """Return the lines of a CSV file for columns of equal length.
 
     Columns of texts are escaped for spreadsheets.

@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 
 FORMAT = "gudgeon-result/2"
 MAX_ATTRIBUTE_NAME = 200  # characters
-SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
+SERIES, ENVELOPE, EVENT_STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
 START = "start_row"  # series at the start of a run, where that is not a sample
 GIVEN_START = "given_start"  # the state that a run was given as `start`
-PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
+PARTS = ("impacts", "events", EVENT_STATES, "parameters", ENVELOPE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -46,7 +46,7 @@ IMPACTS = {
 }
 EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of the event")}
 PROVENANCE_GROUP = "provenance"
-TRACE_TIME = ("s", "end of the last step of the row")
+ENVELOPE_TIME = ("s", "end of the last step of the row")
 EXTREMES = {
     "name": ("", "series"),
     "against": ("", "scene whose series was subtracted"),
@@ -69,9 +69,9 @@ def build_tables(run: Result) -> Iterator[Table]:
     yield Table("impacts", "impact", tuple(build_record_variables(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
     yield Table("events", "occurrence", tuple(build_record_variables(run.events, EVENTS, events)), {})
-    yield Table(STATES, "occurrence", tuple(_iterate_event_variables(run, events)), {})
+    yield Table(EVENT_STATES, "occurrence", tuple(_iterate_event_variables(run, events)), {})
     yield Table("parameters", "address", tuple(_iterate_parameter_variables(run)), {})
-    yield Table(TRACE, "t", tuple(_iterate_envelope_variables(run)), {})
+    yield Table(ENVELOPE, "t", tuple(_iterate_envelope_variables(run)), {})
     yield Table(PEAKS, "row", tuple(_iterate_peak_variables(run)), {})
     derived = Variable("value", run.p[len(run.given) :], "", "value derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
@@ -90,8 +90,8 @@ def _iterate_series_variables(run: Result) -> Iterator[Variable]:
 
 def _iterate_start_variables(run: Result) -> Iterator[Variable]:
     """Yield the given `start` of a run as one column: t, q, v, contact codes, discrete states; nothing without one."""
-    if run.begun is not None:
-        fields = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
+    if (start := run.given_start) is not None:
+        fields = ([start.t], start.q, start.v, start.state, start.memory)
         values = np.concatenate([np.asarray(values_of_field, dtype=np.float64) for values_of_field in fields])
         yield Variable("value", values, "", "time, coordinates, velocities, contact codes, memory, SI")
 
@@ -160,7 +160,7 @@ def _iterate_envelope_variables(run: Result) -> Iterator[Variable]:
     """
     if run.trace is None:
         return
-    yield Variable("t", run.trace.t, *TRACE_TIME)
+    yield Variable("t", run.trace.t, *ENVELOPE_TIME)
     for k, joint in enumerate(run.source.clearances):
         for column, (name, (unit, meaning)) in enumerate(TRACED.items()):
             yield Variable(f"{joint.name}.{name}", run.trace.joints[:, k, column], unit, meaning)
@@ -263,7 +263,7 @@ def read_result(file: File, source: KernelSource, series_names: tuple[str, ...])
     """Return the checked result of an open file. Raises ValueError, TypeError or KeyError for an invalid file."""
     diagnostics = Diagnostics.from_json(file.read_text_attribute("diagnostics"))
     check_type(diagnostics, Diagnostics, "diagnostics")
-    t = file.read_numbers("time")
+    t = file.read_array("time")
     if not len(t):
         raise ValueError("it has no samples")
     check_times(t)
@@ -287,8 +287,8 @@ def read_result(file: File, source: KernelSource, series_names: tuple[str, ...])
         run.start_row = read_start_row(file, run)
         check_times(np.append(run.start_row.t, t[0]))
     if file.has_entry(GIVEN_START):
-        run.begun = _read_given_start(file, run.final)
-    if file.has_entry(STATES):
+        run.given_start = _read_given_start(file, run.final)
+    if file.has_entry(EVENT_STATES):
         run.__dict__["states_at_events"] = read_states_at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # raise an error if the file lacks their data
     check_extremes(diagnostics.extremes, run.names)
@@ -325,11 +325,11 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
 
 def _check_names_and_units(source: KernelSource) -> None:
     """Raise ValueError unless all names of a source are identifiers with dots and all units are valid."""
-    parts: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
-    parts += source.points
-    choices = [choice for parameter in source.parameters for choice in parameter.words]
-    units = [parameter.unit for parameter in source.parameters] + [series.unit for series in source.series]
-    names = [part.name for part in parts] + [parameter.address for parameter in source.parameters] + [*source.outputs]
+    components: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    components += source.points
+    choices = [choice for slot in source.parameters for choice in slot.words]
+    units = [slot.unit for slot in source.parameters] + [series.unit for series in source.series]
+    names = [component.name for component in components] + [slot.address for slot in source.parameters] + [*source.outputs]
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is not a valid name")
@@ -349,7 +349,7 @@ def _read_series(file: File, name: str, n_samples: int) -> Array:
     )
     # the plain name, for an output named like a group that older versions did not write
     stored_name = stored_name if file.has_entry(stored_name) else name
-    values = file.read_numbers(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
+    values = file.read_array(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
@@ -358,17 +358,17 @@ def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Ar
     """Return p with derived parameters, given and is_given. Raises ValueError if a given value differs from p."""
     n_parameters, n_derived = len(source.parameters), len(source.derived)
     if file.is_old:
-        p = file.read_numbers("parameters.prepared", n_parameters + n_derived)
-        given = file.read_numbers("parameters.given", n_parameters)
-        is_given = file.read_numbers("parameters.is_given", n_parameters, "i1")
+        p = file.read_array("parameters.prepared", n_parameters + n_derived)
+        given = file.read_array("parameters.given", n_parameters)
+        is_given = file.read_array("parameters.is_given", n_parameters, "i1")
         _check_given_values(source, p, given, is_given)
         return p, given, is_given.astype(bool)
     values, given = (
-        file.read_numbers(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0)
+        file.read_array(f"parameters/{name}", n_parameters) if n_parameters else np.zeros(0)
         for name in ("value", "given")
     )
-    is_given = file.read_numbers("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
-    derived_values = file.read_numbers(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
+    is_given = file.read_array("parameters/is_given", n_parameters, "i1") if n_parameters else np.zeros(0)
+    derived_values = file.read_array(f"{COMPILED}/value", n_derived) if n_derived else np.zeros(0)
     _check_given_values(source, values, given, is_given)
     return np.concatenate([values, derived_values]), given, is_given.astype(bool)
 
@@ -389,7 +389,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
     if not file.has_entry(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
     if file.is_old:
-        owner_indices = file.read_numbers(f"{kind}.{owner_column}", None, "i4")
+        owner_indices = file.read_array(f"{kind}.{owner_column}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
         owner_indices = np.array([index[name] for name in file.read_texts(f"{kind}s/{owner_column}")], "i4")
@@ -398,17 +398,17 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
     table = np.empty(len(owner_indices), dtype)
     table[owner_column] = owner_indices
     for name in other_columns:
-        table[name] = file.read_numbers(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices))
+        table[name] = file.read_array(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner_indices))
     return table
 
 
 def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
     """Return the envelope over the steps, TRACE_COLUMNS of each joint with play; None without one or in older files."""
-    if not file.has_entry(TRACE):
+    if not file.has_entry(ENVELOPE):
         return None
-    t = file.read_numbers(f"{TRACE}/t")
-    names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
-    columns = [[file.read_numbers(name, len(t)) for name in joint_columns] for joint_columns in names]
+    t = file.read_array(f"{ENVELOPE}/t")
+    names = [[f"{ENVELOPE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
+    columns = [[file.read_array(name, len(t)) for name in joint_columns] for joint_columns in names]
     return Envelope(t, np.moveaxis(np.array(columns).reshape(len(columns), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
 
@@ -463,8 +463,8 @@ def read_states_at_events(file: File, run: Result) -> Result:
     """Return the result whose samples are the start of the run and then its events, read from the file."""
     stored, count, start_row = {}, len(run.events), run.start_row or run
     for name in run.stored:
-        values = file.read_numbers(
-            f"{STATES}/{name_event_column(name)}", count, "i1" if name.endswith(".state") else "f8"
+        values = file.read_array(
+            f"{EVENT_STATES}/{name_event_column(name)}", count, "i1" if name.endswith(".state") else "f8"
         )
         stored[name] = np.concatenate([start_row.stored[name][:1], values])
         stored[name].flags.writeable = False
@@ -474,9 +474,9 @@ def read_states_at_events(file: File, run: Result) -> Result:
 
 def read_start_row(file: File, run: Result) -> Result:
     """Return the start of a run whose samples begin later: a result of one sample, read from the file."""
-    t = file.read_numbers(f"{START}/time", 1)
+    t = file.read_array(f"{START}/time", 1)
     datasets = {name: (f"{START}/{name_variable(name)}", values.dtype.str) for name, values in run.stored.items()}
-    stored = {name: file.read_numbers(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
+    stored = {name: file.read_array(dataset_name, 1, dtype) for name, (dataset_name, dtype) in datasets.items()}
     for values in stored.values():
         values.flags.writeable = False
     return replace(run, t=t, **rebuild_samples(run.source, stored, 1), trace=None, stored=stored)
@@ -485,7 +485,7 @@ def read_start_row(file: File, run: Result) -> Result:
 def _read_given_start(file: File, final_state: State) -> State:
     """Return the state that a run was given as `start`; identity and parameters are those of its final state."""
     offsets = np.cumsum([1, len(final_state.q), len(final_state.v), len(final_state.state), len(final_state.memory)])
-    t, *motion, state, memory = np.split(file.read_numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
+    t, *motion, state, memory = np.split(file.read_array(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
     return replace(final_state, t=float(t[0]), q=motion[0], v=motion[1], state=state.astype(np.int8), memory=memory)
 
 

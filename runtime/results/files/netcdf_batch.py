@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # the written format; the former one, with common times of all runs
 RUNS, GIVEN, EXTREMES, NUMBER = "runs", "given", "extremes", "number"
-TIMES, KEPT, OWNER = "times", "kept", "run"
+TIMES, KEPT, RUN_COLUMN = "times", "kept", "run"
 COUNTS = (*STORED_COUNTS, "seconds")
 
 
@@ -90,7 +90,7 @@ def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attribu
     `tables_by_run` has (run, table) of each run with rows; without any, the result has no variables.
     """
     run_numbers = [np.full(table.length, i, np.int32) for i, table in tables_by_run]
-    variables = [Variable(OWNER, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
+    variables = [Variable(RUN_COLUMN, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
     for k, first in enumerate(tables_by_run[0][1].variables if tables_by_run else ()):
         values = np.concatenate([table.variables[k].values for _, table in tables_by_run])
         variables.append(Variable(name_column(first.name), values, first.unit, first.meaning))
@@ -99,7 +99,7 @@ def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attribu
 
 def name_column(name: str) -> str:
     """Return the column name of a series in a long table: the name itself, or "output.NAME" for "run" and "row"."""
-    return f"output.{name}" if name in (OWNER, "row") else name
+    return f"output.{name}" if name in (RUN_COLUMN, "row") else name
 
 
 def _format_stored_name(name: str) -> str:
@@ -227,7 +227,7 @@ def _iterate_run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator
 
 
 def _convert_error_to_json(error: GudgeonError) -> str:
-    """Return an error as JSON: class, text, time (NaN if it has none), and the fields of a SingularError."""
+    """Return an error as JSON: class, text, time (NaN if it has none), `pivot` ("") and `outside_model` (False)."""
     time = repr(float(getattr(error, "time", math.nan)))
     other_fields = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
     return json.dumps(
@@ -235,8 +235,8 @@ def _convert_error_to_json(error: GudgeonError) -> str:
     )
 
 
-def _read_error_json(text: str, partial_result: Result | None) -> GudgeonError:
-    """Return the error from the JSON of `_convert_error_to_json`, with the partial result. Raises ValueError."""
+def _parse_error_json(text: str, partial_result: Result | None) -> GudgeonError:
+    """Return the error in the JSON of `_convert_error_to_json`; raise ValueError for an unknown class of errors."""
     data = json.loads(text)
     cls = getattr(errors, str(data["kind"]), None)
     if not (isinstance(cls, type) and issubclass(cls, GudgeonError)):
@@ -268,7 +268,7 @@ class _RunRows(File):
         """Return the diagnostics of the run, JSON; `key` and `group` are not used."""
         return self.long_tables.diagnostics[self.run]
 
-    def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
+    def read_array(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
         """Return the run's rows of a numeric column."""
         rows = self.long_tables.find_rows(name, self.run)
         return self._check_length(name, length, self.long_tables.read_column(name, dtype)[rows])
@@ -297,8 +297,8 @@ class LongTables:
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
             run_numbers, needs_run_numbers = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
-            if file.has_entry(group) and (needs_run_numbers or file.has_entry(f"{group}/{OWNER}")):
-                run_numbers = file.read_numbers(f"{group}/{OWNER}", None, "i4")
+            if file.has_entry(group) and (needs_run_numbers or file.has_entry(f"{group}/{RUN_COLUMN}")):
+                run_numbers = file.read_array(f"{group}/{RUN_COLUMN}", None, "i4")
             if len(run_numbers) and (
                 run_numbers[0] < 0 or run_numbers[-1] >= n_runs or (np.diff(run_numbers) < 0).any()
             ):
@@ -321,7 +321,7 @@ class LongTables:
         if name not in self.columns:
             n_rows = int(self.begins[name.rpartition("/")[0]][-1])
             texts = np.array(self.file.read_texts(name, n_rows), dtype=object) if not dtype else None
-            self.columns[name] = self.file.read_numbers(name, n_rows, dtype) if texts is None else texts
+            self.columns[name] = self.file.read_array(name, n_rows, dtype) if texts is None else texts
         return self.columns[name]
 
 
@@ -338,7 +338,7 @@ class _StoredResults:
             raise self.errors[i]
         return self.runs[i]
 
-    def evaluate_samples(self, i: int, parts: frozenset[str]) -> Result | None:
+    def build_run_samples(self, i: int, field_names: frozenset[str]) -> Result | None:
         """Return run i, of which every series is stored; None if it did not begin."""
         return self.runs.get(i)
 
@@ -350,7 +350,7 @@ class _StoredResults:
 def _read_batch(opened_file: Any, size: int) -> Batch:
     """Return the batch of an open HDF5 file of `size` bytes. Raises ValueError, TypeError or KeyError if invalid."""
     file = File(opened_file, size, FORMATS)
-    source, count = netcdf.read_source(file), len(file.read_numbers(OWNER, None, "i8"))
+    source, count = netcdf.read_source(file), len(file.read_array(RUN_COLUMN, None, "i8"))
     batch_values = json.loads(file.read_text_attribute("batch"))
     stored_names = batch_values.get("kept")
     series_names, long_tables = tuple(get_catalogue(source)), LongTables(file, count, stored_names is None)
@@ -360,13 +360,13 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
     for run in runs.values():
         run.provenance = provenance
     failure_texts = file.read_texts(f"{RUNS}/failure", count)
-    errors_by_run = {i: _read_error_json(text, runs.get(i)) for i, text in enumerate(failure_texts) if text}
+    errors_by_run = {i: _parse_error_json(text, runs.get(i)) for i, text in enumerate(failure_texts) if text}
     if missing_runs := [i for i in range(count) if stored_names is None and i not in runs and i not in errors_by_run]:
         raise ValueError(f"run {missing_runs[0]} has neither a result nor a failure")
     t = read_times(long_tables, count, bool(batch_values.get("own_times")))
     counts = {name: file.read_integers_or_floats(f"{RUNS}/{name}", count) for name in COUNTS}
     run_files = [_RunRows(long_tables, i) for i in range(count)]
-    samples = file.read_numbers(f"{RUNS}/samples", count, "i8")
+    samples = file.read_array(f"{RUNS}/samples", count, "i8")
     padded = [_pad_samples(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
@@ -376,7 +376,7 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
         kept={}
         if stored_names is None
         else read_stored_series(long_tables, stored_names, series_names, samples, t.shape[-1]),
-        t_last=file.read_numbers(f"{RUNS}/t_last", count),
+        t_last=file.read_array(f"{RUNS}/t_last", count),
         parameters=_read_parameters(file, source, count, runs),
         impacts=tuple(netcdf.read_impacts(run, source) for run in run_files),
         events=tuple(netcdf.read_events(run, source) for run in run_files),
@@ -393,7 +393,7 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
 
 def read_times(long_tables: LongTables, n_runs: int, has_times_by_run: bool) -> Array:
     """Return the requested times: (N,), or (n, N) padded with NaN where each run has its own. Raises ValueError."""
-    t = long_tables.file.read_numbers(f"{TIMES}/time")
+    t = long_tables.file.read_array(f"{TIMES}/time")
     if not has_times_by_run:
         netcdf.check_times(t)
         return t
@@ -430,7 +430,7 @@ def read_stored_series(
     series_by_name = {}
     for name in stored_names:
         dataset_name = f"{KEPT}/{name_column(_format_stored_name(name))}"
-        column = long_tables.file.read_numbers(dataset_name) if long_tables.file.has_entry(KEPT) else np.zeros(0)
+        column = long_tables.file.read_array(dataset_name) if long_tables.file.has_entry(KEPT) else np.zeros(0)
         series_by_name[name] = _unroll_column(long_tables, KEPT, column, len(samples), n_columns)
     return series_by_name
 
@@ -478,7 +478,7 @@ def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mappin
     given = {
         address: np.array(file.read_texts(f"{GIVEN}/{address}", n_runs), dtype=object)
         if parameter.words
-        else file.read_numbers(f"{GIVEN}/{address}", n_runs)
+        else file.read_array(f"{GIVEN}/{address}", n_runs)
         for address, parameter in given_parameters.items()
     }
     for address, values in given.items():
@@ -496,5 +496,5 @@ def _read_peaks(file: File, source: KernelSource, n_runs: int) -> Array:
     peaks = np.full((n_runs, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
     for k, joint in enumerate(source.clearances):
         for name in PEAK_DTYPE.names or ():
-            peaks[name][:, k] = file.read_numbers(f"{RUNS}/{joint.name}.peak.{name}", n_runs)
+            peaks[name][:, k] = file.read_array(f"{RUNS}/{joint.name}.peak.{name}", n_runs)
     return peaks

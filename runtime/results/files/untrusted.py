@@ -100,7 +100,7 @@ class File:
             raise ValueError(f"the attribute {key!r} is not a text")
         return str(value)
 
-    def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
+    def read_array(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
         """Return a numeric array (n,) of the file; raise ValueError for another type or length.
 
         `length` None allows any length.
@@ -113,7 +113,7 @@ class File:
 
     def read_integers_or_floats(self, name: str, length: int) -> Array:
         """Return an array of integers or floats, as stored."""
-        return self.read_numbers(name, length, "i8" if self._get_dataset(name, length).dtype.kind == "i" else "f8")
+        return self.read_array(name, length, "i8" if self._get_dataset(name, length).dtype.kind == "i" else "f8")
 
     def read_texts(self, name: str, length: int | None = None) -> list[str]:
         """Return an array of texts of the file as a list; raise ValueError for numbers or another length.

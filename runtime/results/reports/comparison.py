@@ -18,7 +18,7 @@ from gudgeon.language.plot_units import choose_plot_unit, format_quantity
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, build_extreme_rows, find_sample_extreme
 from gudgeon.results.results import Result
-from gudgeon.results.series import MOTION_UNITS, find_rate_names, find_rigid_guides, list_drive_series
+from gudgeon.results.series import MOTION_UNITS, find_ideal_translational_joints, find_rate_names, list_drive_series
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -45,7 +45,7 @@ class SceneReport:
     drives: tuple[Extreme, ...] = ()  # torques and forces of the drives
     guides: tuple[Extreme, ...] = ()  # force and moment of those with play; of an ideal scene of all
     constrained: bool = True  # whether constraint equations remain that can be violated
-    scales: Mapping[str, float] = field(default_factory=dict)  # unit -> largest magnitude in this run
+    max_magnitudes: Mapping[str, float] = field(default_factory=dict)  # unit -> largest magnitude in this run
 
 
 def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
@@ -72,7 +72,7 @@ def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
     drive_names = () if run.source.massless_bodies else list_drive_series(run.source)
-    ideal_guides = [joint.name for joint in find_rigid_guides(run.source) if not run.source.clearances]
+    ideal_guides = [joint.name for joint in find_ideal_translational_joints(run.source) if not run.source.clearances]
     guide_names = [
         f"{name}.{component}"
         for name in run.source.guides or ideal_guides
@@ -120,8 +120,10 @@ def _find_largest_magnitudes(
 
 
 def convert_to_json_values(reports: Sequence[SceneReport]) -> dict[str, Any]:
-    """Return the values of all scenes as a dictionary for `--json`, by scene; NaN and infinity, which JSON lacks, are
-    None.
+    """Return the values of all scenes as a dictionary by scene, for `gudgeon run --json`.
+
+    Keys of a scene: motion, errors, peak_forces, drives, guides, peaks, peak_errors, constants, events, diagnostics.
+    NaN and infinity, which JSON lacks, are None.
     """
     scenes = {}
     for report in reports:
@@ -254,7 +256,10 @@ def _format_error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
     """Return the rows (error, one cell a scene) of peak errors against the ideal scene at the samples."""
     names = dict.fromkeys(error.name for report in reports for error in report.errors)
     cells_by_scene = [
-        {error.name: _format_peak_cell(error.peak, error.unit, error.t, report.scales) for error in report.errors}
+        {
+            error.name: _format_peak_cell(error.peak, error.unit, error.t, report.max_magnitudes)
+            for error in report.errors
+        }
         for report in reports
     ]
     return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
@@ -263,7 +268,8 @@ def _format_error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
 def _format_motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """Return the rows (series, one cell a scene) of the ranges of the watched series and their rates at the samples."""
     cells_by_scene = [
-        {extreme.name: _format_range_cell(extreme, report.scales) for extreme in report.motion} for report in reports
+        {extreme.name: _format_range_cell(extreme, report.max_magnitudes) for extreme in report.motion}
+        for report in reports
     ]
     names = dict.fromkeys(extreme.name for report in reports for extreme in report.motion)
     return [(name, [cells.get(name, "–") for cells in cells_by_scene]) for name in names]
@@ -274,7 +280,7 @@ def _format_extreme_rows(reports: Sequence[SceneReport], is_error: bool) -> list
 
     With `is_error` they are peaks of the errors against another scene; other series have rows for max and min.
     """
-    formatters = [partial(_format_peak_cell, max_magnitudes=report.scales) for report in reports]
+    formatters = [partial(_format_peak_cell, max_magnitudes=report.max_magnitudes) for report in reports]
     return build_extreme_rows([report.diagnostics.extremes for report in reports], formatters, is_error)
 
 
@@ -303,7 +309,7 @@ def _format_force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
                     scene_report.forces.get(joint, unknown_peak)[0],
                     "N",
                     scene_report.forces.get(joint, unknown_peak)[1],
-                    scene_report.scales,
+                    scene_report.max_magnitudes,
                 )
                 for scene_report in reports
             ],
@@ -334,7 +340,10 @@ def _format_peak_rows(
     `peaks` has the extremes of the series of each scene, in the order of `reports`.
     """
     cells_by_scene = [
-        {peak.name: _format_peak_cell(peak.peak, peak.unit, peak.t, scene_report.scales) for peak in scene_peaks}
+        {
+            peak.name: _format_peak_cell(peak.peak, peak.unit, peak.t, scene_report.max_magnitudes)
+            for peak in scene_peaks
+        }
         for scene_report, scene_peaks in zip(reports, peaks, strict=True)
     ]
     names_over_all_steps = {

@@ -35,7 +35,7 @@ from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, group_note
 from gudgeon.studies.ensemble.parameter_values import (
     ROUNDING,
     evaluate_expression_for_runs,
-    find_impossible_values,
+    find_out_of_range_values,
     find_parameter,
     find_parameter_key,
     parse_real_value,
@@ -168,7 +168,7 @@ class RunTable:
         self.step: Array | None = None
         if settings.step is not None and self.source.degrees_of_freedom:
             self.step = evaluate_expression_for_runs(self.source, settings.step, self.p, values_by_name)
-            self._mark_impossible_runs("step", self.step)
+            self._record_invalid_runs("step", self.step)
         self.spans = self._evaluate_windows(settings.windows, values_by_name)
 
     def _compute_perturbed_parameters(self, job: Job) -> dict[str, Array]:
@@ -233,13 +233,13 @@ class RunTable:
             spans[name] = tuple(ends_of_runs)
         return spans
 
-    def _mark_impossible_runs(self, name: str, values: Array) -> None:
+    def _record_invalid_runs(self, name: str, values: Array) -> None:
         """Enter the runs with an impossible value of the setting `name` in `invalid_runs`, with value and expected
         range.
 
         name: "t_end", "output" or "step". A run that is entered already keeps its first reason.
         """
-        is_impossible, expected = find_impossible_values(name, values)
+        is_impossible, expected = find_out_of_range_values(name, values)
         for i in np.flatnonzero(is_impossible).tolist():
             message = f"{name} is {values[i]:g} with the parameters of this run: expected {expected}"
             self.invalid_runs.setdefault(i, message)
@@ -251,7 +251,7 @@ class RunTable:
         """
         if expr is not None:
             end_times = evaluate_expression_for_runs(self.source, expr, self.p, {})
-            self._mark_impossible_runs("t_end", end_times)
+            self._record_invalid_runs("t_end", end_times)
             return end_times
         return self._evaluate_for_each_run(lambda p: evaluate_scene_end_time(self.source, p))
 
@@ -266,7 +266,7 @@ class RunTable:
                 lambda p: evaluate_scene_option(self.source, "output", p, DEFAULT_OUTPUT)
             )
         counts = np.rint(evaluate_expression_for_runs(self.source, expr, self.p, known_values))
-        self._mark_impossible_runs("output", counts)
+        self._record_invalid_runs("output", counts)
         return counts
 
     def _evaluate_for_each_run(self, compute_value: Any) -> Array:
@@ -395,11 +395,11 @@ class _Collector:
         N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
         t = np.full((job.n_runs, N), np.nan)
         series = {name: np.full((job.n_runs, N), np.nan) for name in keep}
-        for runs, requested, kept in self.kept:
-            used = kept["t"]
+        for runs, requested, stored in self.kept:
+            used = stored["t"]
             t[runs, : used.shape[1]] = np.where(np.isnan(used), requested, used)
-            for name in (name for name in keep if name in kept):
-                series[name][runs, : used.shape[1]] = kept[name]
+            for name in (name for name in keep if name in stored):
+                series[name][runs, : used.shape[1]] = stored[name]
         began = ~np.isnan(self.t_last)
         t[~began] = np.nan
         common = t[began][0] if began.any() else np.zeros(N)

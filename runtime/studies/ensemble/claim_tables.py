@@ -121,7 +121,7 @@ def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Stud
     }
     with open_atomic(folder / CLAIMS_FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
-    for name, table in zip(TABLE_NAMES, _build_tables(rows), strict=True):
+    for name, table in zip(TABLE_NAMES, _build_claim_tables(rows), strict=True):
         with open_atomic(folder / f"claims_{name}.csv") as file:
             file.write(table.map(escape_for_spreadsheet).to_csv(index=False).encode())
 
@@ -131,7 +131,7 @@ def read_judged_claims(folder: Path) -> JudgedClaims:
     document = read_claims_json(folder)
     if document is None:
         raise GudgeonError("the study file has no claims")
-    numbers, trends = _build_tables(document)
+    numbers, trends = _build_claim_tables(document)
     return JudgedClaims(numbers, trends, str(document.get("source", "")))
 
 
@@ -149,7 +149,7 @@ def read_claims_json(folder: Path) -> dict[str, Any] | None:
     )
 
 
-def _build_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
+def _build_claim_tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
     """Return the tables of numbers and of trends from their rows, {"numbers": [...], "trends": [...]}.
 
     None (null in JSON) becomes NaN in columns of numbers.

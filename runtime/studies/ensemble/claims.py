@@ -78,12 +78,15 @@ class ResolvedSelection:
                 for name, indices in self.indices_by_dimension.items()
             )
         ):
-            free = [
+            free_indices = [
                 (name, k)
                 for name, k in zip(self.indices_by_dimension, index, strict=True)
                 if self._is_free(name, fixed_indices)
             ]
-            yield tuple((name, self._get_coordinate_value(name, k)) for name, k in free), RunCell(self.part, index)
+            yield (
+                tuple((name, self._get_coordinate_value(name, k)) for name, k in free_indices),
+                RunCell(self.part, index),
+            )
 
     def _is_free(self, name: str, fixed: Mapping[str, int]) -> bool:
         """Return whether a dimension has several selected values and is not in `fixed`."""
@@ -449,10 +452,10 @@ def _build_count_check(selection: ResolvedSelection, statement: TrendStatement) 
     """
     structure = [coordinate.length for coordinate in selection.plan.structure_dimensions]
     indices_by_dimension = [cell.index[: len(structure)] for _, cell in selection.iterate_cells({})]
-    parts = {
+    part_indices = {
         int(np.ravel_multi_index(cell_index, structure)) if structure else 0 for cell_index in indices_by_dimension
     }
-    sources = [selection.plan.parts[k].simulation.source for k in sorted(parts)]
+    sources = [selection.plan.parts[k].simulation.source for k in sorted(part_indices)]
     is_true = all(
         _count_components(source)[str(name)] == count for source in sources for name, count in statement.counts.items()
     )

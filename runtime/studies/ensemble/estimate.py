@@ -14,7 +14,7 @@ import numpy as np
 from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.integrators.threads import count_available_threads
 from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
-from gudgeon.results.batch import find_evaluation_parts
+from gudgeon.results.batch import find_evaluation_fields
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
 from gudgeon.studies.ensemble.folder import encode_block
@@ -60,7 +60,7 @@ def _check_block_memory(plan: Plan, part: Part, cores: int) -> None:
     n_runs = n_blocks * part.block_runs
     names = list_sampled_series(plan.run_settings.measures, plan.run_settings.keep, compiled.source)
     state = compute_sample_bytes(compiled) + compute_evaluation_bytes(
-        compiled, find_evaluation_parts(compiled.source, names)
+        compiled, find_evaluation_fields(compiled.source, names)
     )
     size = state * min(max(cores, n_blocks), n_runs) + n_runs * 8 * SERIES_COPIES * (len(names) + 1)
     runs = f"{n_runs} runs" if n_runs > 1 else "a run"

@@ -78,9 +78,9 @@ def _check_period_expression(measure: Measure, source: KernelSource) -> None:
     """Raise an InputError unless the section of a measure is an expression of parameters with the dimension of time."""
     from gudgeon.generator.study.spec import ParsedExpression
 
-    written = ParsedExpression(parse(measure.of, measure.of.where), measure.of)
+    expression = ParsedExpression(parse(measure.of, measure.of.where), measure.of)
     try:
-        check_expression(source, written, TIME, {"t_end": TIME})
+        check_expression(source, expression, TIME, {"t_end": TIME})
     except InputError as error:
         events = ", ".join(event.name for event in source.events) or "none"
         hint = f"expected {WHOLE_RUN}, an event of scene {source.scene} ({events}), or a period: 2*pi/omega"

@@ -205,7 +205,7 @@ class StudyOfParts(Study):
     @property
     def dataset(self) -> xarray.Dataset:
         """Raise GudgeonError: each part has its own dataset."""
-        raise self._make_part_error("dataset")
+        raise self._make_parts_only_error("dataset")
 
     @property
     def tree(self) -> xarray.DataTree:
@@ -245,11 +245,11 @@ class StudyOfParts(Study):
     @property
     def plot(self) -> StudyPlot:
         """Raise GudgeonError: each part has its own figures."""
-        raise self._make_part_error("plot")
+        raise self._make_parts_only_error("plot")
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
         """Raise GudgeonError: each part has its own table."""
-        raise self._make_part_error("to_dataframe()")
+        raise self._make_parts_only_error("to_dataframe()")
 
     def save(self, target: str | os.PathLike[str]) -> None:
         """Write the datasets of all parts as one NetCDF file with a group for each, for `xarray.open_datatree`.
@@ -259,7 +259,7 @@ class StudyOfParts(Study):
         with open_atomic(check_path(target, "path")) as file:
             file.write(bytes(self.tree.to_netcdf(engine="h5netcdf")))
 
-    def _make_part_error(self, request: str) -> GudgeonError:
+    def _make_parts_only_error(self, request: str) -> GudgeonError:
         """Return the error for an attribute, such as "dataset", that only the parts have; it lists the parts."""
         name = next(iter(self._parts))
         return GudgeonError(

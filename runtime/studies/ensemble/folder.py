@@ -225,11 +225,11 @@ def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
     Empty mappings and lists yield nothing.
     """
     if isinstance(node, Mapping):
-        for name, below in node.items():
-            yield from _iterate_leaves(below, f"{key}.{name}" if key else str(name))
+        for name, child in node.items():
+            yield from _iterate_leaves(child, f"{key}.{name}" if key else str(name))
     elif isinstance(node, list):
-        for k, below in enumerate(node):
-            yield from _iterate_leaves(below, f"{key}[{k}]")
+        for k, child in enumerate(node):
+            yield from _iterate_leaves(child, f"{key}[{k}]")
     else:
         yield key, node
 

@@ -114,7 +114,8 @@ def judge_claim(
     The probability of a check is the fraction of combinations of runs, one of each cell, that satisfy it: for two cells
     of all pairs (Mann-Whitney statistic, Ann. Math. Stat. 18, 1947). It is NaN, and the verdict undecided, if a cell
     has no run with all measures. runs: values of the measures by cell. deterministic_cells: cells whose runs do not
-    scatter. shared_cells: cells whose runs other ensembles share.
+    scatter. shared_cells: cells whose runs other ensembles share. The `chance` of the verdict is the product of the
+    fractions of combinations that satisfy all checks of each group of connected checks.
     """
     complete_runs = _select_complete_runs(checks, runs)
     chance = math.prod(_evaluate_combinations(group, complete_runs)[0] for group in _group_checks(checks))

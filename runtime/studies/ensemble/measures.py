@@ -218,15 +218,15 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
     The depth (N/m) is the maximum over the bearing's cells of ∫F|v_t|dt per area; the arc (rad) is the shortest one
     with 90 % of the wear.
     """
-    out = np.full(len(batch), np.nan)
+    values = np.full(len(batch), np.nan)
     for i, loads_of_run in enumerate(batch.rubbed):
-        for rubbed in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
-            out[i] = (
-                compute_shortest_arc(rubbed.load[0])
+        for sliding_loads in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
+            values[i] = (
+                compute_shortest_arc(sliding_loads.load[0])
                 if measure.statistic == "wear_arc"
-                else rubbed.compute_depth(0).max()
+                else sliding_loads.compute_depth(0).max()
             )
-    return out
+    return values
 
 
 def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
@@ -295,31 +295,32 @@ def is_in_window(t: Array, begin: Array | float, end: Array | float) -> Array:
     return np.asarray((t >= begin - tolerance) & (t <= end + tolerance))
 
 
-def _is_in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Return a flag for each sample, (n, N): whether it lies in its run's window and its value x is not NaN.
+def _is_in_window(t: Array, samples: Array, begin: Array, end: Array) -> Array:
+    """Return a flag for each sample, (n, N): whether it lies in its run's window and its value is not NaN.
 
-    t, x: (n, N). begin, end (s): (n,).
+    t, samples: (n, N). begin, end (s): (n,).
     """
     with np.errstate(invalid="ignore"):
-        return is_in_window(t, begin[:, None], end[:, None]) & ~np.isnan(x)
+        return is_in_window(t, begin[:, None], end[:, None]) & ~np.isnan(samples)
 
 
 def _make_extreme_statistic(
     reduce: Callable[..., Array], fill_value: float, transform: Callable[[Array], Array]
 ) -> Callable[..., Array]:
-    """Return the function statistic(t, x, begin, end) of an extreme, such as the maximum of |x| in each run's window.
+    """Return the function statistic(t, samples, begin, end) of an extreme, such as the maximum of |x| in each run's
+    window.
 
-    reduce: reduction over an axis, np.max or np.min. transform: applied to the samples x first. fill_value: neutral
+    reduce: reduction over an axis, np.max or np.min. transform: applied to the samples first. fill_value: neutral
     value for samples outside the window.
     """
 
-    def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    def statistic(t: Array, samples: Array, begin: Array, end: Array) -> Array:
         """Return the extreme of each run, (n,); NaN for a run without samples in its window.
 
-        t, x: (n, N). begin, end (s): (n,).
+        t, samples: (n, N). begin, end (s): (n,).
         """
-        inside = _is_in_window(t, x, begin, end)
-        values = reduce(np.where(inside, transform(x), fill_value), axis=1)
+        inside = _is_in_window(t, samples, begin, end)
+        values = reduce(np.where(inside, transform(samples), fill_value), axis=1)
         return np.asarray(np.where(inside.any(axis=1), values, np.nan))
 
     return statistic
@@ -330,35 +331,37 @@ _compute_min = _make_extreme_statistic(np.min, np.inf, lambda x: x)
 _compute_peak = _make_extreme_statistic(np.max, -np.inf, np.abs)
 
 
-def _compute_range(t: Array, x: Array, begin: Array, end: Array) -> Array:
+def _compute_range(t: Array, samples: Array, begin: Array, end: Array) -> Array:
     """Return the largest less the smallest sample of each run in its window, (n,); NaN without samples."""
-    return np.asarray(_compute_max(t, x, begin, end) - _compute_min(t, x, begin, end))
+    return np.asarray(_compute_max(t, samples, begin, end) - _compute_min(t, samples, begin, end))
 
 
-def _compute_mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
+def _compute_mean(t: Array, samples: Array, begin: Array, end: Array) -> Array:
     """Return the mean over time of each run in its window, (n,), by the trapezoidal rule between samples in the window.
 
     A single sample is the mean itself; NaN without samples.
     """
-    inside = _is_in_window(t, x, begin, end)
-    both = inside[:, 1:] & inside[:, :-1]
-    dt = np.where(both, np.diff(t, axis=1), 0.0)
-    middle = np.where(both, (x[:, 1:] + x[:, :-1]) / 2, 0.0)
+    inside = _is_in_window(t, samples, begin, end)
+    both_inside = inside[:, 1:] & inside[:, :-1]
+    dt = np.where(both_inside, np.diff(t, axis=1), 0.0)
+    means = np.where(both_inside, (samples[:, 1:] + samples[:, :-1]) / 2, 0.0)
     span = dt.sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(np.where(span > 0.0, (dt * middle).sum(axis=1) / span, _find_final_sample(t, x, begin, end)))
+        return np.asarray(
+            np.where(span > 0.0, (dt * means).sum(axis=1) / span, _find_final_sample(t, samples, begin, end))
+        )
 
 
-def _compute_rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
+def _compute_rms(t: Array, samples: Array, begin: Array, end: Array) -> Array:
     """Return the root mean square over time of each run in its window, (n,), as `_compute_mean` of x²."""
-    return np.asarray(np.sqrt(_compute_mean(t, x * x, begin, end)))
+    return np.asarray(np.sqrt(_compute_mean(t, samples * samples, begin, end)))
 
 
-def _find_final_sample(t: Array, x: Array, begin: Array, end: Array) -> Array:
+def _find_final_sample(t: Array, samples: Array, begin: Array, end: Array) -> Array:
     """Return the last sample of each run in its window, (n,); NaN without samples."""
-    inside = _is_in_window(t, x, begin, end)
+    inside = _is_in_window(t, samples, begin, end)
     last = inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)
-    return np.asarray(np.where(inside.any(axis=1), x[np.arange(len(x)), last], np.nan))
+    return np.asarray(np.where(inside.any(axis=1), samples[np.arange(len(samples)), last], np.nan))
 
 
 SAMPLE_STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {

@@ -34,8 +34,8 @@ def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
     "c" is short for "parameters.c". Of a group (PARAMETER_GROUPS) it is the first member that the scene has.
     """
     by_address = {parameter.address: parameter for parameter in source.parameters}
-    called = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
-    return next((by_address[address] for address in called if address in by_address), None)
+    candidate_addresses = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
+    return next((by_address[address] for address in candidate_addresses if address in by_address), None)
 
 
 def find_parameter_key(source: KernelSource, name: str) -> str:
@@ -197,7 +197,7 @@ def evaluate_constant(expression: ParsedExpression | None, known_values: Mapping
     return float(evaluate(expression.expr, known_values.get))
 
 
-def find_impossible_values(name: str, values: Array) -> tuple[Array, str]:
+def find_out_of_range_values(name: str, values: Array) -> tuple[Array, str]:
     """Return a flag for each value that is outside the range of a setting, and a text with the expected range.
 
     name: of the setting, "t_end", "step" or "output". The values of output must be rounded.
@@ -217,7 +217,7 @@ def check_constant_settings(study: StudyFile) -> None:
     for name, expression in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
         if expression is None or (value := evaluate_constant(expression, constants)) is None:
             continue
-        is_impossible, expected = find_impossible_values(
+        is_impossible, expected = find_out_of_range_values(
             name, np.rint([value]) if name == "output" else np.array([value])
         )
         if is_impossible.any():

@@ -18,7 +18,7 @@ from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.tree import from_json, iterate_names
 from gudgeon.model.parameter_sets import compute_parameter_values_of_runs, read_given_parameters_of_runs
-from gudgeon.results.batch import Array, find_evaluation_parts
+from gudgeon.results.batch import Array, find_evaluation_fields
 from gudgeon.results.results import make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.simulation import Simulation
@@ -220,10 +220,10 @@ def _compute_kinematic_series(
     Runs that fail are left out, and are simulated for their reason. Empty for a scene with degrees of freedom. A
     simulation would spend two thirds of its time on the energy balance, which is not used.
     """
-    source, compiled, parts = (
+    source, compiled, field_names = (
         simulation.source,
         simulation.compiled,
-        find_evaluation_parts(simulation.source, series_names),
+        find_evaluation_fields(simulation.source, series_names),
     )
     if source.degrees_of_freedom or not runs:
         return {}
@@ -240,7 +240,16 @@ def _compute_kinematic_series(
             q, v = compute_motion_at(compiled, p, t, start.q, start.v)
             no_states = np.zeros((len(t), 0))
             run = make_evaluated_samples(
-                source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), no_states, no_states.astype(np.int8), parts
+                source,
+                compiled,
+                p,
+                t,
+                q,
+                v,
+                np.full((len(t), 3), np.nan),
+                no_states,
+                no_states.astype(np.int8),
+                field_names,
             )
             series_by_run = (
                 {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}

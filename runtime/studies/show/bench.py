@@ -104,7 +104,7 @@ def _format_scene_title(scene_bench: SceneBench) -> str:
     part = " (partial: interrupted after {} of {} rows)".format(*scene_bench.done) if scene_bench.interrupted else ""
     return (
         f"{scene_bench.scene}: the first {format_seconds(scene_bench.t_end)}"
-        + (f" ({scene_bench.why})" if scene_bench.why else "")
+        + (f" ({scene_bench.end_reason})" if scene_bench.end_reason else "")
         + part
     )
 
@@ -150,14 +150,14 @@ def _build_method_table(scene_bench: SceneBench, rows: Sequence[Row], columns: S
     return table
 
 
-def _format_error_cell(scene_bench: SceneBench, measure: str, error: float) -> str:
+def _format_error_cell(scene_bench: SceneBench, error_name: str, error: float) -> str:
     """Return an error as a table cell with two digits, in brackets if the references do not resolve it; "–" for NaN.
 
-    measure: "motion", "path" or "force".
+    error_name: "motion", "path" or "force".
     """
     return (
         _format_error(error)
-        if math.isnan(error) or scene_bench.is_resolved(measure, error)
+        if math.isnan(error) or scene_bench.is_resolved(error_name, error)
         else f"({_format_error(error)})"
     )
 
@@ -191,7 +191,7 @@ def describe_bench(scene_bench: SceneBench, marked_step: float | None) -> list[s
     if not scene_bench.references:
         return ["no degree of freedom: nothing is integrated, the error is the residual of the constraint equations"]
     first, second = (f"{r.method} at {r}" for r in scene_bench.references)
-    a = scene_bench.agreement
+    a = scene_bench.reference_difference
     agreement_text = ", ".join(f"{name} {_format_error(x)}" for name, x in _pair_with_names(a.motion, a.path, a.force))
     lines = [
         f"references: {first} and {second}; a run is compared with the one by another method",
@@ -276,9 +276,9 @@ def list_bench_rows(scene_benches: Sequence[SceneBench]) -> list[dict[str, Any]]
             "error_path": row.error.path,
             "error_force": row.error.force,
             "reference": f"{row.reference.method} {row.reference.value:g}" if row.reference else "",
-            "references_differ_coordinates": scene_bench.agreement.motion,
-            "references_differ_path": scene_bench.agreement.path,
-            "references_differ_force": scene_bench.agreement.force,
+            "references_differ_coordinates": scene_bench.reference_difference.motion,
+            "references_differ_path": scene_bench.reference_difference.path,
+            "references_differ_force": scene_bench.reference_difference.force,
             "failure": row.failure,
         }
         for scene_bench in scene_benches

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 MARKERS = {method.name: method.marker for method in METHODS} | {"auto": "x", KINEMATIC: "D"}
 # cross-checks are in the background: thin, dashed, grey or light blue, distinguished by their markers
-CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
-GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
+CROSS_CHECK_MARKERS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
+GREY, CROSS_CHECK_COLOURS = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
 
 
 def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_step: float | None = None) -> Figure:
@@ -48,7 +48,7 @@ def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_st
                 [],
                 color=_select_colour(m),
                 marker=_select_marker(m),
-                ls="--" if m in CHECKS else "-",
+                ls="--" if m in CROSS_CHECK_MARKERS else "-",
                 ms=6,
                 label=m,
             )
@@ -67,13 +67,13 @@ def draw_bench_figure(title: str, scene_benches: Sequence[SceneBench], marked_st
 
 def _select_marker(method: str) -> str:
     """Return the matplotlib marker of a method, gudgeon's own or a cross-check such as "scipy:DOP853"."""
-    return CHECKS.get(method) or MARKERS[method]
+    return CROSS_CHECK_MARKERS.get(method) or MARKERS[method]
 
 
 def _select_colour(method: str) -> str:
     """Return the colour of a method; all cross-checks of a package have the same one."""
-    if method in CHECKS:
-        return LIGHT[method.partition(":")[0]]
+    if method in CROSS_CHECK_MARKERS:
+        return CROSS_CHECK_COLOURS[method.partition(":")[0]]
     return COLOURS[list(MARKERS).index(method) % len(COLOURS)]
 
 
@@ -86,7 +86,7 @@ def _draw_scene(time_axes: Axes, rhs_axes: Axes, scene_bench: SceneBench) -> Non
     for method in scene_bench.methods:
         rows = [row for row in scene_bench.list_rows(method) if not row.failure and row.error.largest > 0]
         errors = [row.error.largest for row in rows]
-        colour, marker, check = _select_colour(method), _select_marker(method), method in CHECKS
+        colour, marker, check = _select_colour(method), _select_marker(method), method in CROSS_CHECK_MARKERS
         times = [row.seconds * scene_bench.t_end * 1e3 for row in rows]
         for ax, x in ((time_axes, times), (rhs_axes, [row.right_hand_sides or row.samples for row in rows])):
             dashes, width, z = ("--", 0.8, 1.9) if check else ("-", 1.3, 2)
@@ -98,7 +98,7 @@ def _draw_scene(time_axes: Axes, rhs_axes: Axes, scene_bench: SceneBench) -> Non
     time_axes.set(xscale="log", yscale="log", xlabel="run time of the window [ms]", ylabel="largest error")
     rhs_axes.set(xscale="log", xlabel="right-hand sides" if scene_bench.references else "samples")
     time_axes.set_title(f"{scene_bench.scene}, the first {format_seconds(scene_bench.t_end)}", loc="left", fontsize=9.5)
-    unresolved_limit = RESOLUTION_FACTOR * scene_bench.agreement.largest
+    unresolved_limit = RESOLUTION_FACTOR * scene_bench.reference_difference.largest
     if math.isfinite(unresolved_limit) and unresolved_limit > time_axes.get_ylim()[0]:
         bottom = time_axes.get_ylim()[0]
         for ax in (time_axes, rhs_axes):

@@ -267,11 +267,18 @@ def _format_trend_cells(rows: list[Row], claim_names: _ClaimNames) -> list[str]:
     first = rows[0]
     verdicts_text = ", ".join(f"{claim_names.get_title(row['ensemble'])} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"ensembles disagree: {verdicts_text}"
-    odds = (
+    probability_cells = (
         _join_distinct(map(_format_probability_cell, rows)),
         _join_distinct(_format_probability(row["chance"]) for row in rows),
     )
-    return [str(first["claim"]), str(first["figure"]), str(first["says"]), verdict, *odds, str(first["note"])]
+    return [
+        str(first["claim"]),
+        str(first["figure"]),
+        str(first["says"]),
+        verdict,
+        *probability_cells,
+        str(first["note"]),
+    ]
 
 
 def _format_probability_cell(row: Row) -> str:

@@ -161,7 +161,7 @@ def _build_boundary_table(verdict_map: VerdictMap) -> Table:
     name = verdict_map.columns.name
     table = make_rich_table((name, "largest stable step", "next step"), left_aligned=("next step",))
     for x in verdict_map.columns.values:
-        largest = verdict_map.find_largest_stable_row(x)
+        largest = verdict_map.find_stability_limit(x)
         next_step = next((step for step in verdict_map.rows.values if not step <= largest), None)
         cell = verdict_map.get_cell(next_step, x) if next_step is not None else None
         next_cell_text = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "none on the axis"
@@ -179,7 +179,7 @@ def print_failures(console: Console, mechanism: str, verdicts: VerdictMap | Verd
     mechanism: name or file as typed. verdicts: the map or box of the cells. A cell without a reason is printed with its
     largest error.
     """
-    laws = list_typed_law_files()
+    laws = list_law_display_paths()
     for cell in cells:
         description = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
         console.print(f"  {VERDICT_SIGNS[cell.status]} {description}", markup=False, emoji=False)
@@ -223,7 +223,7 @@ def format_run_command(
     return shlex.join([*words, "--t-end", repr(t_end)])
 
 
-def list_typed_law_files() -> list[str]:
+def list_law_display_paths() -> list[str]:
     """Return the files of the registered user-defined laws as the command line has them; other laws are left out.
 
     Laws that Python code registered have no such file.
@@ -250,7 +250,7 @@ def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) 
         cells = [verdict_map.get_cell(step, x) for x in verdict_map.columns.values]
         counts = Counter(cell.status for cell in cells)
         counts_text = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
-        stable_steps = [x for x in map(verdict_map.find_largest_stable_row, verdict_map.columns.values) if x == x]
+        stable_steps = [x for x in map(verdict_map.find_stability_limit, verdict_map.columns.values) if x == x]
         shortest = format_seconds(min(stable_steps)) if len(stable_steps) == len(cells) else "none on the axis"
         lines.append(
             f"step {format_seconds(step)}, {verdict_map.scene}: of {len(cells)} columns {counts_text}; "
@@ -282,13 +282,13 @@ def list_cell_rows(verdicts: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
 
 
 def format_axis_value(axis: Axis, x: float) -> str:
-    """Return a value of an axis as text: a word of a choice, "0.3 mm" for a clearance, "1e-8" for rtol, else a
+    """Return a value of an axis as text: the name of an option, "0.3 mm" for a clearance, "1e-8" for rtol, else a
     quantity.
 
-    x: value in SI, or the index of a word. Other quantities have three digits and a suitable unit.
+    x: value in SI, or the index of an option. Other quantities have three digits and a suitable unit.
     """
-    if axis.words:
-        return axis.words[int(x)]
+    if axis.option_names:
+        return axis.option_names[int(x)]
     if axis.name == "clearance":
         return format_clearance(x)
     if axis.name == "rtol":
@@ -297,11 +297,13 @@ def format_axis_value(axis: Axis, x: float) -> str:
 
 
 def explain_labels(maps: Sequence[VerdictMap]) -> str:
-    """Return the legend of the labels that occur in the cells of the maps, two explanations on each line."""
-    used = {cell.label.split(" ")[0] for verdict_map in maps for cell in verdict_map.cells}
-    message = dict.fromkeys(text for word, text in LABEL_MEANINGS.items() if word in used)
-    parts = ["a number: largest error relative to a finer run, over the compared time", *message]
-    return "\n".join(" · ".join(parts[k : k + 2]) for k in range(0, len(parts), 2))
+    """Return the legend of the labels in the cells of the maps: of numbers, then of the words that occur.
+
+    There are two explanations on each line."""
+    label_words = {cell.label.split(" ")[0] for verdict_map in maps for cell in verdict_map.cells}
+    meanings = dict.fromkeys(text for word, text in LABEL_MEANINGS.items() if word in label_words)
+    explanations = ["a number: largest error relative to a finer run, over the compared time", *meanings]
+    return "\n".join(" · ".join(explanations[k : k + 2]) for k in range(0, len(explanations), 2))
 
 
 def describe_comparison(verdicts: VerdictMap | VerdictBox) -> str:

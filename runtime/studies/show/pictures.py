@@ -49,8 +49,8 @@ class PageFigures:
 
     def insert_figures(self, page: str) -> str:
         """Draw all registered figures and return the page (HTML) with their SVG in place of the placeholders."""
-        drawn = _draw_in_processes(self.figures)
-        return _PLACEHOLDER.sub(lambda place: drawn[int(place[1])], page)
+        svg_texts = _draw_in_processes(self.figures)
+        return _PLACEHOLDER.sub(lambda place: svg_texts[int(place[1])], page)
 
 
 def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_figures: PageFigures) -> str:
@@ -59,15 +59,15 @@ def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_fi
     name_prefix: prefix of the figures' names. page_figures: the figures are registered there and drawn later. ""
     without figures.
     """
-    parts, omitted = [], 0
+    figure_elements, n_omitted = [], 0
     for k, (caption, draw_axes) in enumerate(figures):
         if k >= MAX_FIGURES:
-            omitted += 1
+            n_omitted += 1
             continue
         placeholder = page_figures.add_placeholder(f"{name_prefix}-{k}", draw_axes)
-        parts.append(f"<figure>{placeholder}<figcaption>{escape_line(caption)}</figcaption></figure>")
-    omission_html = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
-    return f"<div class='g-figures'>{''.join(parts)}</div>{omission_html}" if parts else ""
+        figure_elements.append(f"<figure>{placeholder}<figcaption>{escape_line(caption)}</figcaption></figure>")
+    omission_html = build_paragraphs([f"{n_omitted} more figures: study.plot draws them"] * bool(n_omitted), "g-quiet")
+    return f"<div class='g-figures'>{''.join(figure_elements)}</div>{omission_html}" if figure_elements else ""
 
 
 def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:

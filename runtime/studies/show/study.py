@@ -124,8 +124,8 @@ def _print_study(plan: Plan, study: Study) -> None:
     if spreads:
         table = make_rich_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
         for name, (unit, row) in spreads.items():
-            numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
-            table.add_row(escape_invisible(name), *numbers, unit, str(row["nan"]))
+            quantile_cells = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
+            table.add_row(escape_invisible(name), *quantile_cells, unit, str(row["nan"]))
         make_console().print(table)
     if study.failed:
         print(f"{study.failed} of {format_count(study.runs, 'run')} failed:")

@@ -157,10 +157,10 @@ class StudyData:
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            words = [str(coordinate_value) for coordinate_value in values]
-            if not isinstance(value, str) or value not in words:
-                raise make_missing_name_error(f"{name} has no {shorten_value(value)}", str(value), tuple(words))
-            return words.index(value)
+            texts = [str(coordinate_value) for coordinate_value in values]
+            if not isinstance(value, str) or value not in texts:
+                raise make_missing_name_error(f"{name} has no {shorten_value(value)}", str(value), tuple(texts))
+            return texts.index(value)
         return int(np.abs(values - check_number(value, name)).argmin())
 
     def choose_axis_dimension(self, variable: Any) -> str:
@@ -170,11 +170,13 @@ class StudyData:
         is no other dimension. Raises BadValueError for a single run.
         """
         dims = [str(dim) for dim in variable.dims]
-        numbers = [dim for dim in dims if dim not in POOLED_DIMENSIONS and self._is_number(dim)]
+        numeric_dims = [dim for dim in dims if dim not in POOLED_DIMENSIONS and self._is_number(dim)]
         if not dims:
             raise BadValueError("a single run is selected: a figure over a coordinate needs several")
-        words = [dim for dim in dims if dim not in POOLED_DIMENSIONS]
-        return next(iter(numbers), next((dim for dim in words if dim != "scene"), next(iter(words), dims[0])))
+        other_dims = [dim for dim in dims if dim not in POOLED_DIMENSIONS]
+        return next(
+            iter(numeric_dims), next((dim for dim in other_dims if dim != "scene"), next(iter(other_dims), dims[0]))
+        )
 
     def is_ordered_number(self, name: str) -> bool:
         """Return whether the values of a coordinate are ordered numbers, so that a line may connect them.
@@ -197,15 +199,15 @@ class StudyData:
         It is the scenes, else the first dimension of texts; None if there is neither.
         """
         dims = [str(dim) for dim in variable.dims if dim != axis_dimension]
-        words = [dim for dim in dims if not self._is_number(dim)]
-        return "scene" if "scene" in dims else next(iter(words), None)
+        text_dims = [dim for dim in dims if not self._is_number(dim)]
+        return "scene" if "scene" in dims else next(iter(text_dims), None)
 
     def split_runs(self, variable: Any, dimension: str | None) -> list[tuple[str, Any]]:
         """Return a pair (label, DataArray of its runs) for each value of a dimension; [("", variable)] for None."""
         if dimension is None:
             return [("", variable)]
-        words, _ = self.format_value_labels(dimension, with_name=True)
-        return [(word, variable.isel({dimension: k})) for k, word in enumerate(words)]
+        labels, _ = self.format_value_labels(dimension, with_name=True)
+        return [(label, variable.isel({dimension: k})) for k, label in enumerate(labels)]
 
     def flatten_runs(self, variable: Any, *last_dimensions: str) -> Any:
         """Return the values of a variable as an array (runs, …): `last_dimensions` last, all others joined."""
@@ -360,10 +362,10 @@ class StudyData:
         """Yield for each combination of coordinates ({dimension: text}, values of a measure over POOLED_DIMENSIONS)."""
         variable = self.dataset[name]
         dims = [str(dim) for dim in variable.dims if dim not in POOLED_DIMENSIONS]
-        words = {dim: self.format_value_labels(dim)[0] for dim in dims}
+        labels = {dim: self.format_value_labels(dim)[0] for dim in dims}
         values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in POOLED_DIMENSIONS)).values
-        for where in np.ndindex(values.shape[: len(dims)]):
-            yield {dim: words[dim][k] for dim, k in zip(dims, where, strict=True)}, np.ravel(values[where])
+        for index in np.ndindex(values.shape[: len(dims)]):
+            yield {dim: labels[dim][k] for dim, k in zip(dims, index, strict=True)}, np.ravel(values[index])
 
 
 def describe_changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:

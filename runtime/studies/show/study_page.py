@@ -154,13 +154,13 @@ def _iterate_coordinate_rows(study_data: StudyData) -> Iterator[tuple[str, ...]]
             yield (
                 study_data.get_title(name),
                 dimensions_text,
-                _list_values([study_data.get_title(value) for value in values]),
+                _format_value_list([study_data.get_title(value) for value in values]),
                 "",
                 meaning,
             )
             continue
         if written := study_data.get_written_values(str(name)):
-            yield study_data.get_title(name), dimensions_text, _list_values(list(written)), "", meaning
+            yield study_data.get_title(name), dimensions_text, _format_value_list(list(written)), "", meaning
             continue
         factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
         is_short = len(values) <= MAX_SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
@@ -170,7 +170,7 @@ def _iterate_coordinate_rows(study_data: StudyData) -> Iterator[tuple[str, ...]]
         yield study_data.get_title(name), dimensions_text, values_text, unit_text, meaning
 
 
-def _list_values(value_texts: list[str]) -> str:
+def _format_value_list(value_texts: list[str]) -> str:
     """Return up to MAX_SHOWN_VALUES texts joined by commas; of more the first, the last and their count."""
     return (
         ", ".join(value_texts)

@@ -79,20 +79,20 @@ class StudyPlot:
             x, x_label, ticks = self.data.describe_axis(axis)
             magnitudes = [find_largest_magnitude(values.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = choose_plot_unit(max(magnitudes), values.attrs.get("units", ""))
-            parts, is_ordered = self.data.split_runs(values, by), self.data.is_ordered_number(axis)
-            for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
-                quantiles = compute_run_quantiles(self.data.flatten_runs(part_values, over)) * factor
+            groups, is_ordered = self.data.split_runs(values, by), self.data.is_ordered_number(axis)
+            for k, ((label, group_values), colour) in enumerate(zip(groups, choose_colours(len(groups)), strict=True)):
+                quantiles = compute_run_quantiles(self.data.flatten_runs(group_values, over)) * factor
                 if is_ordered:
-                    draw_band(ax, x, quantiles, colour, message)
+                    draw_band(ax, x, quantiles, colour, label)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    draw_bars(
-                        ax, x + BAR_GROUP_WIDTH * (k - 0.5 * (len(parts) - 1)) / len(parts), quantiles, colour, message
+                    draw_quantile_bars(
+                        ax, x + BAR_GROUP_WIDTH * (k - 0.5 * (len(groups) - 1)) / len(groups), quantiles, colour, label
                     )
-            draw_published_values(ax, claimed, factor, choose_colours(len(parts)))
+            draw_published_values(ax, claimed, factor, choose_colours(len(groups)))
             ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
             set_ticks(ax, x, ticks)
-            self._set_title_and_legend(ax, at, len(parts) > 1 or bool(claimed))
+            self._set_title_and_legend(ax, at, len(groups) > 1 or bool(claimed))
         return ax
 
     def bands(
@@ -116,28 +116,28 @@ class StudyPlot:
                 raise BadValueError(f"{series}: no run has a duration to resample over")
             t, values = resampled
         if t.ndim > 1:
-            message = f"{series}: the runs have different sample times: bands need the same times"
-            raise BadValueError(message, hint="select runs with the same times (at=…), share=True, or draw an overlay")
+            label = f"{series}: the runs have different sample times: bands need the same times"
+            raise BadValueError(label, hint="select runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.find_dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
-            for (message, part_values), colour in zip(
-                parts := self.data.split_runs(values, by), choose_colours(len(parts)), strict=True
+            for (label, group_values), colour in zip(
+                groups := self.data.split_runs(values, by), choose_colours(len(groups)), strict=True
             ):
                 draw_band(
                     ax,
                     t,
-                    compute_run_quantiles(self.data.flatten_runs(part_values, values.dims[-1])) * factor,
+                    compute_run_quantiles(self.data.flatten_runs(group_values, values.dims[-1])) * factor,
                     colour,
-                    message,
+                    label,
                     0.0,
                 )
             ax.set(
                 xlabel="fraction of the run" if share else "t [s]",
                 ylabel=format_label(self.data.get_title(series), unit),
             )
-            self._set_title_and_legend(ax, at, len(parts) > 1)
+            self._set_title_and_legend(ax, at, len(groups) > 1)
         return ax
 
     def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
@@ -231,17 +231,17 @@ class StudyPlot:
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
             x = np.broadcast_to(x, values.shape)
-            parts = self.data.split_runs(values, by)
-            for k, ((part_label, part_values), colour) in enumerate(
-                zip(parts, choose_colours(len(parts)), strict=True)
+            groups = self.data.split_runs(values, by)
+            for k, ((group_label, group_values), colour) in enumerate(
+                zip(groups, choose_colours(len(groups)), strict=True)
             ):
-                part_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
-                rows = zip(part_x.reshape(-1, x.shape[-1]), part_values.values.reshape(-1, x.shape[-1]), strict=True)
-                label = select_legend_label(part_values.values, part_label)
+                group_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
+                rows = zip(group_x.reshape(-1, x.shape[-1]), group_values.values.reshape(-1, x.shape[-1]), strict=True)
+                label = select_legend_label(group_values.values, group_label)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=label if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
-            self._set_title_and_legend(ax, at, len(parts) > 1)
+            self._set_title_and_legend(ax, at, len(groups) > 1)
         return ax
 
     def section(
@@ -398,7 +398,7 @@ def draw_band(ax: Axes, x: Any, quantiles: Any, colour: str, label: str, marker_
     )
 
 
-def draw_bars(ax: Axes, x: Any, quantiles: Any, colour: str, label: str) -> None:
+def draw_quantile_bars(ax: Axes, x: Any, quantiles: Any, colour: str, label: str) -> None:
     """Draw box plots without boxes: medians as dots, quartiles as thick and extremes as thin vertical bars.
 
     They are for coordinates without an order. quantiles: minimum, quartiles and maximum, (5, N).
@@ -427,12 +427,12 @@ def set_ticks(ax: Axes, x: Any, tick_texts: list[str] | None) -> None:
     """
     if tick_texts is None:
         return
-    lines = [format_figure_title(word, MAX_TICK_LINE_LENGTH) for word in tick_texts]
+    lines = [format_figure_title(label, MAX_TICK_LINE_LENGTH) for label in tick_texts]
     ax.set_xticks(x, lines)
-    if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > MAX_TICK_ROW_LENGTH:
+    if sum(max(map(len, label.split("\n")), default=0) + 2 for label in lines) > MAX_TICK_ROW_LENGTH:
         ax.tick_params(axis="x", rotation=30.0, labelsize=7)
-        for word in ax.get_xticklabels():
-            word.set(ha="right", rotation_mode="anchor")
+        for label in ax.get_xticklabels():
+            label.set(ha="right", rotation_mode="anchor")
 
 
 def draw_published_values(
@@ -459,5 +459,5 @@ def write_cell_values(ax: Axes, values: Any, image: Any) -> None:
         if np.isfinite(value):
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
             colour = "#111111" if bright else "white"
-            word = f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"
-            ax.text(column, row, word, ha="center", va="center", fontsize=7.5, color=colour)
+            cell_text = f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"
+            ax.text(column, row, cell_text, ha="center", va="center", fontsize=7.5, color=colour)
