@@ -190,7 +190,9 @@ class SampleAudit:
         of motion of single bodies are checked there too.
         """
         compiled, problem, trajectory, samples = self.compiled, self.problem, self.trajectory, self.samples
-        discrete_states = trajectory.memory[samples] if compiled.n_discrete_states else np.full((len(samples), 1), np.nan)
+        discrete_states = (
+            trajectory.memory[samples] if compiled.n_discrete_states else np.full((len(samples), 1), np.nan)
+        )
         t, q = trajectory.t[samples], trajectory.q[samples]
         errors = np.zeros((len(samples), len(LIMITS)))
         given = [compiled.pointer(values) for values in (t, q, trajectory.v[samples], discrete_states, problem.p)]

@@ -61,7 +61,9 @@ class Flow:
         source = compiled.source
         self.compiled, self.p = compiled, compute_values_without_baumgarte(compiled, run.given, run.is_given)
         self.is_reduced = source.formulation == "reduced"
-        self.m, self.n_dep = (len(source.tree_coordinates), len(source.driven_loop_coordinates)) if self.is_reduced else (compiled.n, 0)
+        self.m, self.n_dep = (
+            (len(source.tree_coordinates), len(source.driven_loop_coordinates)) if self.is_reduced else (compiled.n, 0)
+        )
         self.is_angle, self.n_joints = find_integrated_angles(source), len(source.clearances)
         rows = [row.owner for row in source.start_equations]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]

@@ -329,7 +329,9 @@ def _check_names_and_units(source: KernelSource) -> None:
     components += source.points
     choices = [choice for slot in source.parameters for choice in slot.words]
     units = [slot.unit for slot in source.parameters] + [series.unit for series in source.series]
-    names = [component.name for component in components] + [slot.address for slot in source.parameters] + [*source.outputs]
+    names = (
+        [component.name for component in components] + [slot.address for slot in source.parameters] + [*source.outputs]
+    )
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is not a valid name")
