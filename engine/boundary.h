@@ -35,10 +35,7 @@ enum RunPhase { NEW, BEGUN, OVER };
 /* Results of a call that advances the runs of a batch: all ended, lists are full, one ended, or more to do. */
 enum BatchResult { BATCH_ENDED, BUFFERS_FULL, RUN_ENDED, CALL_AGAIN };
 
-/*
- * Stages at which gudgeon_repeat_run() begins: with parameter values from x; with parameters and tolerances that are set;
- * with a position that was checked.
- */
+/* Stages at which gudgeon_repeat_run() begins. CHECK_POSITION: parameters and tolerances are set. */
 enum RepeatStage { SET_PARAMETERS, CHECK_POSITION, INTEGRATE };
 
 /*

@@ -4,7 +4,7 @@
  * first, whose time loop integrates the run.
  */
 
-/* Return the size of the mechanism in m: the largest distance of a point from its body's origin, or length; 1 if 0. */
+/* Return the size of the mechanism in m: the largest distance of a point from its body's origin; 1 if it is 0. */
 static double compute_mechanism_size(const ToleranceTable *table, const double *p)
 {
     double largest = 0.0;
@@ -70,12 +70,13 @@ int gudgeon_set_repeated_run(const RepeatedRun *repeated, long i, const double *
             batch->min_size + 2 * i, batch->size + i);
 }
 
-/* Return whether the position from which row i resumes satisfies the constraint equations to repeated->max_violation. */
+/* Return whether the position to resume from in row i violates no constraint equation by more than max_violation. */
 static int is_position_consistent(const RepeatedRun *repeated, long i)
 {
     const Batch *batch = repeated->batch;
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
-    gudgeon_phi(get_sample_times(batch, i)[0], batch->start + i * 2 * N_Q, batch->p + i * batch->numbers, phi);
+    constraints(get_sample_times(batch, i)[0], batch->start + i * 2 * N_Q,
+        (const Parameters *)(batch->p + i * batch->numbers), phi);
     for (int r = 0; r < N_ROWS; r++) {
         const int row = motion_row[r];
         if (!(fabs(phi[row]) <= repeated->max_violation * (row_is_length[row] ? batch->size[i] : 1.0)))
@@ -94,8 +95,10 @@ static void integrate_repeated_run(const Batch *batch, Integrator *run, long i)
         const int result = gudgeon_ensemble(batch, run, &current, i + 1);
         if (result == RUN_ENDED)
             return;
-        if (result == BUFFERS_FULL)
-            run->contacts.n_impacts = run->events.n = 0;
+        if (result == BUFFERS_FULL) {
+            discard_contacts(run);
+            discard_user_events(run);
+        }
     }
 }
 
