@@ -6,19 +6,22 @@ All runs are so short that they integrate next to nothing (`t_end` → 0). Times
 several rounds in turns. The parameter values of calls take turns; those of column "new" have not been used before.
 Column "many" is a run of a batch of 1,000 runs with different values in one thread.
 
-"in C" is the time of the function of C that integrates, within these calls; the rest is "beyond". It includes the audit
-of samples, which is C too. Runs of a batch share no vectors where it is measured.
+"in C" is the time of the function of C that starts and integrates the run of such a call; the rest is "beyond". It
+includes the audit of samples, which is C too. Prepared runs and steps are one call of C: the function is measured in
+runs that are repeated without the rest. Runs of a batch share no vectors where it is measured.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import count
+from itertools import count, cycle
 from time import process_time, thread_time
 
 import numpy as np
 
 import gudgeon
+from gudgeon.contract.boundary import NEW
+from gudgeon.integrators.reusable_run import ReusableRun
 from gudgeon.simulation.simulation import Simulation
 
 # mechanism, scene, parameter, series, length of a step (s)
@@ -70,6 +73,28 @@ def measure_in_c(simulation: Simulation, function: Callable[[], object], n: int,
     return 1e6 * best - of_clock
 
 
+def measure_integration(run: ReusableRun, rows: Sequence[int], dt: float = 0.0) -> float:
+    """Return the least time of gudgeon_ensemble for the runs in these rows, which take turns, in µs.
+
+    dt: length (s) of steps, each of which begins at the end of the one before; 0: runs begin at their own starts.
+    """
+    lib, current, turns, arrays = run.compiled.lib, run.compiled.ffi.new("long *"), cycle(rows), run.arrays
+    phase, done, checked, t = arrays["phase"], arrays["done"], arrays["checked"], run.times.t
+
+    def repeat(integrates: bool) -> None:
+        k = next(turns)
+        phase[k], done[k], checked[k] = NEW, 0 if integrates else len(t), 0
+        current[0] = k
+        if dt:
+            t[0], t[1] = t[1], t[1] + dt
+        if integrates:
+            lib.gudgeon_ensemble(run.struct, run._integrator, current, k + 1)
+        if dt:
+            lib.gudgeon_resume_from_end(run.repeated)
+
+    return measure(lambda: repeat(True), CALLS) - measure(lambda: repeat(False), CALLS)
+
+
 def take_turns(function: Callable[[np.ndarray], object], values: Sequence[np.ndarray]) -> Callable[[], object]:
     """Return a function without arguments that calls `function` with one of the values after the other."""
     position = 0
@@ -116,12 +141,13 @@ def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> 
 
     times = [measure(take_turns(simulate, values), CALLS_OF_SIMULATE), measure(simulate_new, CALLS_OF_SIMULATE)]
     times += measure_batch(simulation, name, default)
-    for call in (take_turns(prepared, values), take_turns(lambda x: stepper.step(dt, x), values)):
-        stepper.reset(values[0])
-        times.append(measure(call, CALLS))
-        stepper.reset(values[0])
-        times.append(measure_in_c(simulation, call, CALLS))
-    return times
+    assert prepared._run and stepper._run
+    times += [measure(take_turns(prepared, values), CALLS), measure_integration(prepared._run, (0, 1))]
+    stepper.reset(values[0])
+    times.append(measure(take_turns(lambda x: stepper.step(dt, x), values), CALLS))
+    stepper.reset(values[0])
+    stepper.step(dt, values[0])
+    return [*times, measure_integration(stepper._run, (0,), dt)]
 
 
 def main() -> None:

@@ -35,6 +35,18 @@ enum RunPhase { NEW, BEGUN, OVER };
 /* Results of a call that advances the runs of a batch: all ended, lists are full, one ended, or more to do. */
 enum BatchResult { BATCH_ENDED, BUFFERS_FULL, RUN_ENDED, CALL_AGAIN };
 
+/* Stages at which gudgeon_repeat_run() begins. CHECK_POSITION: parameters and tolerances are set. */
+enum RepeatStage { SET_PARAMETERS, CHECK_POSITION, INTEGRATE };
+
+/*
+ * Results of gudgeon_repeat_run(): the series are in `values`; Python must read them; parameter values are not valid;
+ * the position violates constraint equations; the run failed; an audited sample exceeds a limit.
+ */
+enum RepeatResult { SERIES_READ, SERIES_UNREAD, NOT_VALID, NOT_FITTING, RUN_FAILED, NOT_CONFIRMED };
+
+/* Relation of a parameter to the sum of others in a condition of the file. */
+enum Relation { GREATER, GREATER_OR_EQUAL, LESS, LESS_OR_EQUAL };
+
 /* Contact code of a joint with play in a sample: an impact lasts until the penetration first stops growing. */
 enum ContactCode { CODE_FREE, CODE_IMPACT, CODE_CONTACT };
 

@@ -36,6 +36,7 @@
 #include "methods/audit_step.c"
 #include "methods/adaptive.c"
 #include "batch/ensemble.c"
+#include "batch/repeated_run.c"
 #else
 #include "kinematic/kinematic.c"
 #include "kinematic/works.c"

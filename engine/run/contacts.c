@@ -201,6 +201,9 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
     return changed;
 }
 
+/* Remove all contacts from the list, whose records the caller does not need. */
+static void discard_contacts(Integrator *run) { run->contacts.n_impacts = 0; }
+
 /*
  * Move the oldest contacts, at most `capacity`, from the list into `values` (rows of ImpactColumn) and `joints` (their
  * numbers), and return how many were moved. With `include_open`, the contacts that still last are appended once with

@@ -344,6 +344,9 @@ static int record_events_at_constraint(Integrator *run, const StateBeforeEvent *
 /* Set whether user-defined events that are declared to end the run may do so. */
 void gudgeon_run_stop(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
 
+/* Remove all user-defined events from the list, whose records the caller does not need. */
+static void discard_user_events(Integrator *run) { run->events.n = 0; }
+
 /*
  * Move the oldest user-defined events, at most `capacity`, from the list into these arrays: times t (s), numbers, and
  * states there as rows of samples (y, discrete states, contact codes). A number from N_USER_EVENTS on means NaN. Return

@@ -101,6 +101,50 @@ void gudgeon_prepare_runs(long n_runs, long n_values, const double *given_values
         prepare(given_values + i * n_values, is_given + i * n_values, (Parameters *)p + i);
 }
 
+/* Return whether the parameters p satisfy a relation: a row of table->relations. */
+static int is_relation_satisfied(const ParameterTable *table, const long *relation, const double *p)
+{
+    const double value = p[relation[1]];
+    double bound = 0.0;
+    for (long k = relation[2]; k < relation[3]; k++)
+        bound += p[table->terms[k]];
+    switch (relation[0]) {
+    case GREATER:
+        return value > bound;
+    case GREATER_OR_EQUAL:
+        return value >= bound;
+    case LESS:
+        return value < bound;
+    default:
+        return value <= bound;
+    }
+}
+
+/*
+ * Compute the parameters p of a run and p_motion of its motion from the `values` of a call, or only check those in p if
+ * `values` is NULL. If p_motion is p, both have the same. Return whether all are valid: values are zero or normal, and
+ * parameters are within their limits and satisfy the relations of the file.
+ */
+int gudgeon_set_parameters(const ParameterTable *table, const double *values, double *p, double *p_motion)
+{
+    for (long i = 0; values && i < table->n_targets; i++) {
+        const double value = values[table->targets[2 * i]];
+        if (!isnormal(value) && value != 0.0)
+            return 0;
+        table->given_values[table->targets[2 * i + 1]] = value;
+    }
+    if (values)
+        gudgeon_prepare(table->given_values, table->is_given, p);
+    if (values && p_motion != p)
+        gudgeon_prepare(table->given_values + table->n_given, table->is_given + table->n_given, p_motion);
+    int is_valid = 1;
+    for (long k = 0; k < table->n_parameters; k++)
+        is_valid &= (table->lower[k] <= p[k]) & (p[k] <= table->upper[k]);
+    for (long i = 0; is_valid && i < table->n_relations; i++)
+        is_valid = is_relation_satisfied(table, table->relations + 4 * i, p);
+    return is_valid;
+}
+
 /* Compute the diagonal of the mass matrix, m[N_Q]. */
 void gudgeon_mass(const double *p, double *m) { mass_matrix((const Parameters *)p, m); }
 

@@ -10,6 +10,24 @@
 void gudgeon_prepare(const double *given_values, const unsigned char *is_given, double *p);
 void gudgeon_prepare_runs(long n_runs, long n_values, const double *given_values, const unsigned char *is_given,
     double *p);
+
+/*
+ * Parameters of runs that are repeated with other values, and their conditions. given_values and is_given are those of
+ * gudgeon_prepare() for the run, followed by those for its motion if it has other parameters (n_given each).
+ */
+typedef struct {
+    long n_targets;
+    const long *targets;                  /* rows: index of a value, index in given_values at which it is written */
+    double *given_values;
+    const unsigned char *is_given;
+    long n_given, n_parameters;
+    const double *lower, *upper;          /* limits of all parameters, both included */
+    long n_relations;
+    const long *relations;                /* rows: Relation, index of a parameter, first and end of its terms */
+    const long *terms;                    /* parameters whose sum is the bound */
+} ParameterTable;
+
+int gudgeon_set_parameters(const ParameterTable *table, const double *values, double *p, double *p_motion);
 void gudgeon_mass(const double *p, double *m);
 void gudgeon_phi(double t, const double *q, const double *p, double *phi);
 void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);
@@ -125,6 +143,42 @@ typedef struct {
 } Batch;
 
 int gudgeon_ensemble(const void *batch, void *integrator, long *current, long end);
+
+/* Parameters from which the tolerances of a run follow, with constants of adaptive.py and sizes.py. */
+typedef struct {
+    long n_points, n_clearances, n_coordinates;
+    const long *points;                   /* rows: parameters with the coordinates of a point, or a length; -1: 0 */
+    const long *clearances;               /* rows: parameter of a clearance, of its first contour depth, n depths */
+    const unsigned char *is_angle;        /* of each integrated coordinate */
+    double rtol, max_film_speed_error, min_relative_clearance; /* INFINITY: no film */
+} ToleranceTable;
+
+/*
+ * A run that is repeated with other parameter values in rows of `batch`, and what is returned of it. Evaluated
+ * quantities are those of gudgeon_evaluate() in its order.
+ */
+typedef struct {
+    const Batch *batch;
+    const ParameterTable *parameters;
+    const ToleranceTable *tolerances;
+    const double *x;                      /* parameter values of the next run */
+    int is_resumed;                       /* whether runs resume from batch->start */
+    double max_violation;                 /* of positions to resume from, m per m of the size, or rad */
+    double drawn[8], limit[4];            /* of the audit: fractions of the run at which samples are drawn; limits */
+    long max_calls_of_short_run;          /* right-hand sides of a run of which every second sample is drawn */
+    long n_series, n_skipped;             /* samples that are skipped before those in `values` */
+    const double *const *columns;         /* rows as in batch: first sample of each series; NULL: Python computes it */
+    const long *strides;                  /* doubles from a sample to the next */
+    double *values;                       /* (n_series, samples - n_skipped) */
+    int is_read, is_evaluated;            /* whether C stores `values`, and evaluates samples for them */
+    double *evaluated[10];
+} RepeatedRun;
+
+int gudgeon_compute_tolerances(const ToleranceTable *table, const double *p, double *scale, double *min_size,
+    double *size);
+int gudgeon_set_repeated_run(const RepeatedRun *repeated, long i, const double *x);
+int gudgeon_repeat_run(const RepeatedRun *repeated, void *integrator, long i, int stage);
+void gudgeon_resume_from_end(const RepeatedRun *repeated);
 #endif
 #if HAS_LANES
 const void *gudgeon_single_run_functions(void);

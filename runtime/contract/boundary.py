@@ -37,6 +37,25 @@ BUFFERS_FULL: Final = 1
 RUN_ENDED: Final = 2
 CALL_AGAIN: Final = 3
 
+# enum RepeatStage
+SET_PARAMETERS: Final = 0
+CHECK_POSITION: Final = 1
+INTEGRATE: Final = 2
+
+# enum RepeatResult
+SERIES_READ: Final = 0
+SERIES_UNREAD: Final = 1
+NOT_VALID: Final = 2
+NOT_FITTING: Final = 3
+RUN_FAILED: Final = 4
+NOT_CONFIRMED: Final = 5
+
+# enum Relation
+GREATER: Final = 0
+GREATER_OR_EQUAL: Final = 1
+LESS: Final = 2
+LESS_OR_EQUAL: Final = 3
+
 # enum ContactCode
 CODE_FREE: Final = 0
 CODE_IMPACT: Final = 1

@@ -46,13 +46,14 @@ from gudgeon.contract.methods import (
     TAYLOR,
 )
 from gudgeon.errors import BadValueError, InputError
+from gudgeon.model.arrays import FLAG, set_struct_pointers
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import read_parameter_value
 from gudgeon.model.sizes import (
+    MIN_RELATIVE_CLEARANCE,
     compute_mechanism_sizes,
-    compute_size,
-    scatter_lengths,
+    find_size_indices,
     select_lengths,
 )
 
@@ -227,26 +228,24 @@ def _compute_cached_tolerances_of_run(
 
     `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
     """
-    p = scatter_lengths(compiled.source, lengths)
-    size = compute_size(compiled.source, p)
-    scale, least = compute_tolerances_of_single_run(compiled.source, p, size, rtol)
-    return scale[None], np.array([least]), np.array([size])
+    return _compute_tolerances_and_sizes(compiled, scatter_lengths(compiled.source, lengths)[None], rtol)
 
 
-def compute_tolerances_of_single_run(
-    source: KernelSource, p: Array, size: float, rtol: float
-) -> tuple[Array, tuple[float, float]]:
-    """Return error tolerances (2 n_x,), L and L/S of one run, from its parameter values p (n_p,) and S, `size` (m).
+def make_tolerance_table(compiled: CompiledModel, rtol: float) -> tuple[Any, dict[str, NDArray[Any]]]:
+    """Return C's struct ToleranceTable of a scene, and its arrays by name, which the caller keeps.
 
-    See `compute_tolerances`. The numbers equal those of `compute_tolerances_of_runs` bit for bit; plain floats save
-    time. Without integrated coordinates the only tolerance is rtol.
+    gudgeon_compute_tolerances computes from it, bit for bit, what `compute_tolerances_of_runs` returns.
     """
-    length = min((c for c in (p.item(joint.clearance) for joint in source.clearances) if c > 0.0), default=size)
-    is_angle = find_integrated_angles(source)
-    of_angles, of_lengths, of_speeds = compute_error_scales(source, length, size, rtol)
-    if not len(is_angle):
-        return np.array([rtol]), (length, length / size)
-    scale, n = np.empty(2 * len(is_angle)), len(is_angle)
-    scale[:n], scale[n:] = of_lengths, of_speeds
-    scale[:n][is_angle] = of_angles
-    return scale, (length, length / size)
+    source, contours = compiled.source, {info.joint: (info.first, info.count) for info in compiled.source.contours}
+    clearances = [(joint.clearance, *contours.get(joint.name, (0, 0))) for joint in source.clearances]
+    arrays: dict[str, NDArray[Any]] = {
+        "points": np.array(find_size_indices(source), np.int_).reshape(-1, 2),
+        "clearances": np.array(clearances, np.int_).reshape(-1, 3),
+        "is_angle": find_integrated_angles(source).astype(FLAG),
+    }
+    struct = compiled.ffi.new("ToleranceTable *")
+    set_struct_pointers(compiled.ffi, struct, arrays)
+    struct.n_points, struct.n_clearances, struct.n_coordinates = map(len, arrays.values())
+    struct.rtol, struct.min_relative_clearance = rtol, MIN_RELATIVE_CLEARANCE
+    struct.max_film_speed_error = MAX_FILM_SPEED_ERROR if _has_film(source) else math.inf
+    return struct, arrays

@@ -16,7 +16,7 @@ from gudgeon.integrators.kinematic import MAX_CORRECTION
 from gudgeon.integrators.lanes import MIN_SHARED_ROWS
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem
-from gudgeon.model.arrays import find_memory_address
+from gudgeon.model.arrays import find_memory_address, set_struct_pointers
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import MotionSeries
 from gudgeon.model.sizes import compute_mechanism_sizes
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.lanes import Lanes
 
-C_TYPES = {"B": "unsigned char *", "i": "int *", "l": "long *", "d": "double *"}
 # arrays of the batch that C fills, by their names in the struct KinematicBatch; then those that this module adds
 FILLED = ("start", "started", "phase", "y", "a", "done", "status", "t_last", "seconds", "counts", "residuals")
 ADDED = ("n_interpolated", "t_interpolated", "is_suspect")
@@ -70,11 +69,7 @@ class KinematicEnsemble:
         struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, arrays["p"].shape[1]
         struct.max_correction, struct.has_states, struct.has_works = MAX_CORRECTION, True, True
         struct.largest_a = compiled.pointer(self._largest_a, is_written=True)
-        for name, array in self._inputs.items():
-            setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char]))
-        for name in (*FILLED, *ADDED):
-            array = arrays[name]
-            setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char], is_written=True))
+        set_struct_pointers(compiled.ffi, struct, self._inputs | {name: arrays[name] for name in (*FILLED, *ADDED)})
         struct.ending = compiled.pointer(arrays["ending"], "int *")
         self._series: Any = ()  # what the struct points to: series and their arrays
         self._complete_struct = struct

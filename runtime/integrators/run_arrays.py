@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import N_CHECKS, N_COUNTS, N_PEAK, N_RESIDUALS, N_STEP_ENDS, N_WORK
-from gudgeon.model.arrays import FLAG, find_memory_address, make_pointer
+from gudgeon.model.arrays import FLAG, POINTER_TYPES, find_memory_address, make_pointer
 
-C_TYPES = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
 STRUCT_BYTES = 512  # reserved for the struct
 Field = tuple[Any, tuple[int, ...], float]  # type, shape and initial value of an array
 
@@ -45,7 +44,7 @@ def set_pointers(ffi: Any, struct: Any, arrays: dict[str, NDArray[Any]]) -> None
     """Set the members of C's struct Batch to the addresses of the arrays with their names; callers own the arrays."""
     words = np.frombuffer(ffi.buffer(struct), np.uintp)
     positions = _list_pointer_positions(ffi, tuple((name, x.dtype.char) for name, x in arrays.items()))
-    words[positions] = [find_memory_address(ffi, array, C_TYPES[array.dtype.char]) for array in arrays.values()]
+    words[positions] = [find_memory_address(ffi, array, POINTER_TYPES[array.dtype.char]) for array in arrays.values()]
 
 
 class SingleRunArrays(dict[str, NDArray[Any]]):
@@ -212,7 +211,7 @@ def _list_pointer_positions(ffi: Any, types: tuple[tuple[str, str], ...]) -> NDA
     members = dict(ffi.typeof("Batch").fields)
     for name, kind in types:
         declared = members[name].type.cname.replace("const ", "").replace("volatile ", "")
-        assert declared == C_TYPES[kind] and ffi.sizeof("Batch") <= STRUCT_BYTES, (
-            f"{name}: {declared} in C, {C_TYPES[kind]} in Python"
+        assert declared == POINTER_TYPES[kind] and ffi.sizeof("Batch") <= STRUCT_BYTES, (
+            f"{name}: {declared} in C, {POINTER_TYPES[kind]} in Python"
         )
     return np.array([members[name].offset // 8 for name, _ in types], np.intp)

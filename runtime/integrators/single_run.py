@@ -20,7 +20,6 @@ from gudgeon.integrators.steps import StepLog
 from gudgeon.integrators.stored import Contacts
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.model.sizes import select_lengths
 from gudgeon.waiting.cancellation import CancellationPoll
 
 MAX_REUSED_SAMPLES = 256  # largest number of samples of a run whose arrays are reused
@@ -60,8 +59,11 @@ class SingleRun(Runs):
         if compiled.source.clearances:
             self.allocate_envelope()
         self._problem: Problem | None = None
+        self._tolerance_table = adaptive.make_tolerance_table(compiled, problem.rtol)
+        names = "p", "scale", "min_size", "size"
+        self._tolerance_arguments = self._tolerance_table[0], *self.arrays.find_pointers(compiled.ffi, names)
+        self.arrays["started"][0] = 1
         self._head = self.arrays.copy_head()
-        self._lengths: bytes | None = None  # of the run whose tolerances the head contains
         self.begin_problem(problem)
 
     def begin_problem(self, problem: Problem) -> None:
@@ -73,15 +75,9 @@ class SingleRun(Runs):
         compiled, x, n = self.compiled, self.arrays, self.compiled.n
         assert isinstance(x, SingleRunArrays)
         x.reset_head(self._head)
-        lengths = select_lengths(compiled.source, problem.p).tobytes()
-        if lengths != self._lengths:  # else the head contains the tolerances
-            x["scale"][:], x["min_size"][:], x["size"][:] = adaptive.compute_tolerances_of_runs(
-                compiled, problem.p[None], self.rtol
-            )
-            x["started"][0] = 1
-            self._head, self._lengths = x.copy_head(), lengths
         x["t"][:] = t = problem.t
         x["step"][0], x["t_last"][0], x["p"][0] = problem.step, t[0], problem.p
+        compiled.lib.gudgeon_compute_tolerances(*self._tolerance_arguments)
         x["p_motion"][0] = problem.p if problem.method == "rk4" or problem.p_motion is None else problem.p_motion
         start = x["start"][0]
         start[:n], start[n:] = problem.q, problem.v

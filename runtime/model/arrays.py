@@ -7,7 +7,7 @@ of the required shape and type. No number changes. `make_pointer` gives C the me
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from numbers import Real
 from typing import Any, NoReturn
 
@@ -27,6 +27,7 @@ _KINDS = {
     "unsigned char *": ("unsigned char[]", FLAG),
     "void *": ("unsigned char[]", FLAG),
 }
+POINTER_TYPES = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
 Shape = tuple[int | None, ...]  # required lengths; None for any length
 MAX_ENTRIES = 2**32  # largest number of entries that are copied
 
@@ -47,6 +48,12 @@ def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", is_writt
             layout = f"of shape {array.shape} and strides {array.strides}"
             raise ArrayError(f"an array {layout} for {kind}: {error}") from None
     raise ArrayError(f"an array of {array.dtype} for {kind}")
+
+
+def set_struct_pointers(ffi: Any, struct: Any, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Set the members of a struct of C to the addresses of the arrays with their names; callers own the arrays."""
+    for name, array in arrays.items():
+        setattr(struct, name, make_pointer(ffi, array, POINTER_TYPES[array.dtype.char]))
 
 
 def as_c_array(

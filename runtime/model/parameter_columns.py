@@ -1,27 +1,37 @@
 """Compute the parameter values of single runs from arrays in a fixed order of names, in preallocated arrays.
 
 `parameters.py` reads mappings from names to values and explains errors. Here, names are read once, and each call only
-decides whether its values are valid.
+decides whether its values are valid, in C (gudgeon_set_parameters).
 """
 
 from __future__ import annotations
 
+import operator
 import sys
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import GREATER, GREATER_OR_EQUAL, LESS, LESS_OR_EQUAL
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_names
-from gudgeon.model.arrays import FLAG
+from gudgeon.model.arrays import FLAG, set_struct_pointers
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
 from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
-from gudgeon.model.sizes import find_length_indices
 
 MAX_DOUBLE, MIN_NORMAL = sys.float_info.max, sys.float_info.min
+# codes of the operators of conditions in C
+_RELATIONS = {
+    operator.gt: GREATER,
+    operator.ge: GREATER_OR_EQUAL,
+    operator.lt: LESS,
+    operator.le: LESS_OR_EQUAL,
+}
 
 
 class ParameterColumns:
@@ -47,33 +57,54 @@ class ParameterColumns:
         self._given[1, gains], self._is_given[1, gains] = 0.0, 1
         n_parameters = len(source.parameters)
         indices_by_column = [_find_indices_of_name(source, name) for name in names]
-        # where the value of each column is written, as offsets from the first value given
-        self._offsets = [
-            [*indices, *(n_parameters + k for k in indices if k not in gains)] for indices in indices_by_column
+        # pairs: a column, and where its value is written, as an offset from the first value given
+        targets = [
+            (i, offset)
+            for i, indices in enumerate(indices_by_column)
+            for offset in (*indices, *(n_parameters + k for k in indices if k not in gains))
         ]
         self._has_choices = any(
             parameter.words and mask for parameter, mask in zip(source.parameters, is_given, strict=True)
         )
         self.p = np.tile(compiled.prepare(values, is_fixed), (n_rows, 1))
         self.p_motion = self.p.copy() if gains else self.p
-        self._given_pointer, self._pointers = compiled.pointer(self._given, is_written=True), self._make_pointers()
-        *self._limits, self._relations = collect_conditions(source)
         self._has_partial_expressions = bool(list_possibly_undefined_expressions(source))
-        self.length_indices = find_length_indices(source)
-
-    def _make_pointers(self) -> list[tuple[tuple[Any, Any, Any], ...]]:
-        """Return for each row k the arguments of gudgeon_prepare: pointers to given values, mask and row k of `p`.
-
-        If `p_motion`, the parameters of the motion without Baumgarte gains, differs from `p`, those of `p_motion`
-        follow.
-        """
-        pointer, n_sets = self.compiled.pointer, 1 if self.p_motion is self.p else 2
-        inputs = [(pointer(self._given[i]), pointer(self._is_given[i], "unsigned char *")) for i in range(n_sets)]
-        arrays = (self.p, self.p_motion)[:n_sets]
-        return [
-            tuple((*pair, pointer(array[k], is_written=True)) for pair, array in zip(inputs, arrays, strict=True))
-            for k in range(len(self.p))
+        self.x = np.zeros(len(names))  # values of the next run
+        self.x_pointer = compiled.pointer(self.x)
+        self._row_pointers = [
+            (compiled.pointer(self.p[k], is_written=True), compiled.pointer(self.p_motion[k], is_written=True))
+            for k in range(n_rows)
         ]
+        self.struct = self._make_struct(np.array(targets, np.int_).reshape(-1, 2))
+
+    def _make_struct(self, targets: NDArray[np.int_]) -> Any:
+        """Return C's struct ParameterTable, whose arrays this object owns; `targets`: see calls.h."""
+        lower, upper, relations = collect_conditions(self.source)
+        ends = np.cumsum([0, *(len(terms) for _, terms, _ in relations)]).tolist()
+        rows = [
+            (_RELATIONS[is_satisfied], k, *range_)
+            for (k, _, is_satisfied), range_ in zip(relations, pairwise(ends), strict=True)
+        ]
+        terms = np.array([term for _, terms, _ in relations for term in terms], np.int_)
+        self._arrays: dict[str, NDArray[Any]] = {
+            "targets": targets,
+            "given_values": self._given,
+            "is_given": self._is_given,
+            "lower": lower,
+            "upper": upper,
+            "relations": np.array(rows, np.int_),
+            "terms": terms,
+        }
+        struct = self.compiled.ffi.new("ParameterTable *")
+        set_struct_pointers(self.compiled.ffi, struct, self._arrays)
+        struct.n_targets, struct.n_relations = len(targets), len(relations)
+        struct.n_given, struct.n_parameters = len(self.source.slots), len(lower)
+        return struct
+
+    @property
+    def needs_python(self) -> bool:
+        """Return whether `compute_row` needs Python: for choices of names, and expressions that may be undefined."""
+        return self._has_choices or self._has_partial_expressions
 
     def compute_values_of_row(self, x: Array, k: int) -> bool:
         """Compute row k of `p` and `p_motion` from x (n_names,), and return whether the values are valid.
@@ -82,36 +113,23 @@ class ParameterColumns:
         invalid; the row is then not computed. Other values are valid if `parameters.check_parameter_values` accepts
         them; unresolved clearances are not tested here.
         """
-        given = self._given_pointer
-        for value, offsets in zip(x.tolist(), self._offsets, strict=True):
-            if not MIN_NORMAL <= abs(value) <= MAX_DOUBLE and value != 0.0:  # NaN, infinite or subnormal
-                return False
-            for offset in offsets:
-                given[offset] = value
+        self.x[...] = x
+        is_valid = self.compiled.lib.gudgeon_set_parameters(self.struct, self.x_pointer, *self._row_pointers[k])
+        if not self.needs_python:
+            return bool(is_valid)
         if self._has_choices:
+            magnitudes = np.abs(x)
+            if not (((magnitudes >= MIN_NORMAL) & (magnitudes <= MAX_DOUBLE)) | (x == 0.0)).all():
+                return False
             for array, given, is_given in zip(
                 (self.p_motion, self.p), self._given[::-1], self._is_given[::-1], strict=True
             ):
                 array[k] = self.compiled.prepare(given, is_given)
-        else:
-            for arguments in self._pointers[k]:
-                self.compiled.lib.gudgeon_prepare(*arguments)
-        return self._is_valid(self.p[k])
-
-    def _is_valid(self, p: Array) -> bool:
-        """Return whether the values p (n_p,) are finite and satisfy the conditions of the file.
-
-        Clearances that doubles cannot resolve are found by `ReusableRun.update_tolerances`.
-        """
-        lower, upper = self._limits
-        if b"\0" in ((lower <= p) & (p <= upper)).tobytes():  # quicker than all()
-            return False
-        for k, terms, is_satisfied in self._relations:
-            if not is_satisfied(p.item(k), sum(map(p.item, terms))):
-                return False
-        return not (
+            null = self.compiled.ffi.NULL
+            is_valid = self.compiled.lib.gudgeon_set_parameters(self.struct, null, *self._row_pointers[k])
+        return is_valid and not (
             self._has_partial_expressions
-            and describe_undefined_part(self.source, p, self._is_given[0, : len(self.source.parameters)])
+            and describe_undefined_part(self.source, self.p[k], self._is_given[0, : len(self.source.parameters)])
         )
 
 

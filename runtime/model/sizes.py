@@ -85,22 +85,12 @@ def has_unresolved_clearance(source: KernelSource, p: Array) -> bool:
     return _measure_lengths(source, select_lengths(source, p))[1]
 
 
-def is_clearance_unresolved(source: KernelSource, p: Array, size: float) -> bool:
-    """Return whether a clearance of one run is below MIN_RELATIVE_CLEARANCE of `size`, the mechanism's size (m)."""
-    clearances = (
-        compute_min_clearances(source, p).tolist()
-        if source.contours
-        else [p.item(joint.clearance) for joint in source.clearances]
-    )
-    return any(c < MIN_RELATIVE_CLEARANCE * size for c in clearances)
-
-
 @cache_by_values
 def _measure_lengths(source: KernelSource, lengths: Array) -> tuple[float, bool]:
     """Return the size (m), and whether a clearance is below MIN_RELATIVE_CLEARANCE of it; cached for equal lengths."""
     p = scatter_lengths(source, lengths)
     size = compute_size_of_run(find_size_indices(source), p.tolist())
-    return size, is_clearance_unresolved(source, p, size)
+    return size, any(c < MIN_RELATIVE_CLEARANCE * size for c in compute_min_clearances(source, p).tolist())
 
 
 def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:

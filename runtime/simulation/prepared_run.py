@@ -8,6 +8,7 @@ same error.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from threading import Lock
@@ -18,7 +19,15 @@ from numpy.typing import ArrayLike
 
 from gudgeon.assembly.journals import check_journal_positions
 from gudgeon.assembly.rank import list_redundant_equations
-from gudgeon.contract.boundary import ENDED
+from gudgeon.contract.boundary import (
+    AUDIT_FAILS,
+    CHECK_POSITION,
+    NOT_CONFIRMED,
+    NOT_VALID,
+    RUN_FAILED,
+    SERIES_READ,
+    SET_PARAMETERS,
+)
 from gudgeon.errors import ArrayError, BadValueError, GudgeonError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.reusable_run import N_ROWS, ReusableRun
@@ -39,9 +48,14 @@ from gudgeon.simulation.arguments import (
     evaluate_step,
     select_method,
 )
-from gudgeon.simulation.audit import parse_audit_level
+from gudgeon.simulation.audit import (
+    LIMITS,
+    MAX_CALLS_OF_SHORT_RUN,
+    SAMPLE_POSITIONS,
+    list_checks_left_out,
+    parse_audit_level,
+)
 from gudgeon.simulation.hidden_jumps import needs_jump_search
-from gudgeon.simulation.sample_audit import ReusableSampleAudit
 from gudgeon.simulation.sample_reader import SampleReader
 from gudgeon.simulation.step_observers import check_requested_peaks
 
@@ -123,8 +137,17 @@ class RunSetup:
         return bool(source.eccentricity_equations) or any(joint.is_corner for joint in source.clearances)
 
     def make_run(self, t: Array, steps: Array) -> ReusableRun:
-        """Allocate and return the ReusableRun for sample times t (N,) and fixed steps (N_ROWS,), both in s."""
-        return ReusableRun(self.columns, t, self.method, steps, self.rtol, self.stop, self.audit)
+        """Allocate and return the ReusableRun for sample times t (N,) and fixed steps (N_ROWS,), both in s.
+
+        C audits samples as `audit._check_random_samples` does. The other checks of samples in audit.py need all
+        quantities at all samples, which only `simulate` evaluates.
+        """
+        run = ReusableRun(self.columns, t, self.method, steps, self.rtol, self.stop, self.audit)
+        left_out = list_checks_left_out(self.scene.source, self.method)
+        run.repeated.drawn = SAMPLE_POSITIONS.tolist()
+        run.repeated.limit = [math.inf if check in left_out else AUDIT_FAILS * x for check, x in LIMITS.items()]
+        run.repeated.max_calls_of_short_run = MAX_CALLS_OF_SHORT_RUN
+        return run
 
     def evaluate_step(self, k: int, duration: float) -> float:
         """Return the fixed step (s) of the run in row k, which lasts `duration` (s); infinity without one.
@@ -180,8 +203,12 @@ class PreparedRun:
             steps = np.full(N_ROWS, setup.evaluate_step(0, float(t[-1] - t[0])))
             self._run = setup.make_run(t, steps)
             self._reader = SampleReader(self._run, setup.series, self._n_skipped)
-            self._sample_audit = ReusableSampleAudit(self._run, is_resumed=False)
-            self._has_journal_positions = setup.has_journal_positions
+            self._is_set_in_python = (
+                setup.has_journal_positions
+                or setup.columns.needs_python
+                or self._has_variable_times
+                or self._has_variable_step
+            )
         self.failures: dict[int, GudgeonError] = {}
         self.extremes = np.full((len(self._peaks), 2), np.nan)
 
@@ -265,18 +292,31 @@ class PreparedRun:
         if run is None:
             return self._simulate(x)
         k = run.next_row
-        if not (self._setup.columns.compute_values_of_row(x, k) and run.update_tolerances(k)):
+        if not self._is_set_in_python:
+            self._setup.columns.x[...] = x
+            result = run.repeat(k, SET_PARAMETERS)
+        else:
+            result = run.repeat(k, CHECK_POSITION) if self._set_row(x, k) else NOT_VALID
+        if result in (NOT_VALID, NOT_CONFIRMED):
             return self._simulate(x)
-        if self._has_journal_positions:
+        if result == RUN_FAILED:
+            raise run.build_error(k)
+        return self._reader.read_row(k, result == SERIES_READ)
+
+    def _set_row(self, x: Array, k: int) -> bool:
+        """Set row k for parameter values x (n_parameters,) where Python must check them, or compute times and steps.
+
+        Return whether they are valid. Raises InputError for positions of journals, times and steps.
+        """
+        run = self._run
+        assert run
+        if not run.set_row(x, k):
+            return False
+        if self._setup.has_journal_positions:
             check_journal_positions(run.compiled, run.arrays["p"][k])
         if self._has_variable_times or self._has_variable_step:
             self._update_times(k)
-        status = run.integrate_row(k)
-        if status not in (0, ENDED):
-            raise run.build_error(k)
-        if self._sample_audit.audit_samples(k):
-            return self._simulate(x)
-        return self._reader.read_row(k)
+        return True
 
     def _get_run_arguments(self) -> dict[str, Any]:
         """Return the arguments that `simulate` and `simulate_many` share."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -280,27 +280,6 @@ def check_resumed_state(compiled: CompiledModel, start: State, p: Array) -> None
             "  other lengths have another assembly, and a drive that depends on t and a changed parameter has another"
             " value at that time: write it so that it continues from the state, or run from the scene's own start"
         )
-
-
-def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], bool]:
-    """Return a function that tests positions as `check_resumed_state` does, from known residuals.
-
-    Its arguments are the residuals Φ at the start (n_start_rows,) and the mechanism's size (m). It returns whether the
-    constraint equations are violated by no more than MAX_VIOLATION.
-    """
-    start_rows, rows = [row.name for row in compiled.source.start_equations], compiled.source.equations
-    indices = np.array([start_rows.index(row.name) for row in rows], dtype=np.intp)
-    is_length = np.array([row.unit == "m" for row in rows], dtype=bool)
-    known_size, limits = math.nan, np.zeros(len(rows))
-
-    def satisfies_constraints(phi: Array, size: float) -> bool:
-        """Return whether no residual exceeds its limit; NaN does."""
-        nonlocal known_size, limits
-        if size != known_size:
-            known_size, limits = size, MAX_VIOLATION * np.where(is_length, size, 1.0)
-        return b"\0" not in (np.abs(phi.take(indices)) <= limits).tobytes()  # quicker than all()
-
-    return satisfies_constraints
 
 
 def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:

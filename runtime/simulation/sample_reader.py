@@ -1,7 +1,7 @@
-"""Compute requested series at the samples of a run that was integrated in preallocated arrays (reusable_run.py).
+"""Read requested series at the samples of a run that was integrated in preallocated arrays (reusable_run.py).
 
-Series are computed by the functions of the catalogue (results/series.py) from the arrays of the run, which stay where
-they are from run to run. Quantities that must be evaluated are written by C into arrays that are allocated once.
+C stores the series that are columns of samples or of evaluated quantities (engine/batch/repeated_run.c). The functions
+of the catalogue (results/series.py) compute the others, from the arrays of the run, which stay where they are.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from gudgeon.integrators.reusable_run import N_ROWS, ReusableRun
 from gudgeon.model.compiled import Array
-from gudgeon.model.evaluation import allocate_evaluation
+from gudgeon.model.evaluation import Evaluation, allocate_evaluation
 from gudgeon.results.batch import find_evaluation_fields
 from gudgeon.results.results import Result, make_evaluated_samples
 from gudgeon.results.series import get_catalogue
@@ -42,10 +42,32 @@ class SampleReader:
             )
         )
         self._is_reusable = is_simple and self.n_samples <= MAX_SAMPLES and not source.massless_bodies
-        self._samples = [
-            _ReusableSamples(run, k, self.evaluation_fields) for k in range(N_ROWS if self._is_reusable else 0)
-        ]
-        self._columns = [[self._find_column(samples, name) for name in names] for samples in self._samples]
+        self.values = np.empty((len(names), self.n_samples - n_skipped))  # that C stores
+        self._samples, self._computed = list[_ReusableSamples](), list[tuple[int, Callable[[Result], Array]]]()
+        if self._is_reusable:
+            evaluation, pointers = allocate_evaluation(run.compiled, self.n_samples, self.parts)
+            self._samples = [_ReusableSamples(run, k, self.parts, evaluation) for k in range(N_ROWS)]
+            self._set_columns([pointer for pointer, _ in pointers])
+
+    def _set_columns(self, pointers: Sequence[Any]) -> None:
+        """Set what C reads of a run: the columns of series, and the pointers to evaluated quantities.
+
+        Series that Python must compute are stored in `_computed`, with their positions.
+        """
+        compiled, repeated, names = self.run.compiled, self.run.repeated, self.names
+        columns = [[self._find_column(samples, name) for name in names] for samples in self._samples]
+        arrays = [[x if isinstance(x, np.ndarray) else None for x in row] for row in columns]
+        self._computed = [(i, x) for i, x in enumerate(columns[0]) if not isinstance(x, np.ndarray)]
+        ffi = compiled.ffi
+        self._addresses = ffi.new(
+            "double *[]",
+            [ffi.NULL if x is None else ffi.cast("double *", x.ctypes.data) for row in arrays for x in row],
+        )
+        self._strides = np.array([0 if x is None else x.strides[0] // x.itemsize for x in arrays[0]], np.int_)
+        repeated.columns, repeated.strides = self._addresses, compiled.pointer(self._strides, "long *")
+        repeated.values = compiled.pointer(self.values, is_written=True)
+        repeated.n_series, repeated.n_skipped = len(names), self.n_skipped
+        repeated.is_read, repeated.is_evaluated, repeated.evaluated = True, bool(self.parts), pointers
 
     def _find_column(self, samples: _ReusableSamples, name: str) -> Array | Callable[[Result], Array]:
         """Return the view (N,) of a series in the reused arrays of a row, or the function that computes the series."""
@@ -60,23 +82,22 @@ class SampleReader:
         array, column = series.stored
         return np.asarray((samples.evaluation.a if array == "a" else getattr(samples.result, array))[:, column])
 
-    def read_row(self, k: int) -> Array:
+    def read_row(self, k: int, is_read: bool) -> Array:
         """Return the series (n_series, n_samples) of the run in row k; NaN after the sample at which it ended.
 
-        Raises SingularError for a sample whose quantities cannot be evaluated.
+        `is_read`: C has stored the series, but those that Python computes. Raises SingularError for a sample whose
+        quantities cannot be evaluated.
         """
-        arrays, n_skipped = self.run.arrays, self.n_skipped
-        is_complete = arrays["done"].item(k) == self.n_samples and not arrays["status"].item(k)
-        if self._is_reusable and is_complete and self._samples[k].evaluate():
-            samples = self._samples[k]
-            values = np.empty((len(self.names), self.n_samples - n_skipped))
-            for i, column in enumerate(self._columns[k]):
-                values[i] = (column if isinstance(column, np.ndarray) else column(samples.result))[n_skipped:]
-            return values
-        values = np.full((len(self.names), self.n_samples - n_skipped), np.nan)
-        result = build_samples(self.run, k, self.evaluation_fields)
+        if is_read:
+            if self._computed:
+                stored = self._samples[k].get_result()
+                for i, compute in self._computed:
+                    self.values[i] = compute(stored)[self.n_skipped :]
+            return self.values.copy()
+        values = np.full_like(self.values, np.nan)
+        result = build_samples(self.run, k, self.parts)
         assert result is not None
-        first = n_skipped if len(result.t) > 1 else 0  # a run that ends at its start has no other sample
+        first = self.n_skipped if len(result.t) > 1 else 0  # a run that ends at its start has no other sample
         for row, name in zip(values, self.names, strict=True):
             row[: len(result.t) - first] = result[name][first:]
         return values
@@ -85,10 +106,9 @@ class SampleReader:
 class _ReusableSamples:
     """Hold the samples of one row as a result without diagnostics, whose arrays are views of those of the run."""
 
-    def __init__(self, run: ReusableRun, k: int, evaluation_fields: frozenset[str]) -> None:
+    def __init__(self, run: ReusableRun, k: int, parts: frozenset[str], evaluation: Evaluation) -> None:
         compiled, x, n = run.compiled, run.arrays, run.compiled.n
-        y, pointer = x["y"][k], compiled.pointer
-        joints = len(compiled.source.clearances)
+        y, joints = x["y"][k], len(compiled.source.clearances)
         memory, state = x["discrete_states"][k][:, : compiled.n_discrete_states], x["state"][k][:, :joints]
         self.result = make_evaluated_samples(
             compiled.source,
@@ -102,32 +122,14 @@ class _ReusableSamples:
             state,
             evaluation_fields,
         )
-        self.compiled, self.n_samples, self._evaluation_fields = compiled, len(y), evaluation_fields
-        self._source = y[:, :n], y[:, n : 2 * n]
-        self._copies = np.empty((len(y), n)), np.empty((len(y), n))
-        self.evaluation, _ = allocate_evaluation(compiled, len(y), evaluation_fields)
-        self._filled = [array for array in vars(self.evaluation).values() if array.size]
-        results = [
-            pointer(array, is_written=True) if array.size else compiled.ffi.NULL
-            for array in vars(self.evaluation).values()
-        ]
-        inputs = [pointer(array) for array in (run.times.t, *self._copies, x["discrete_states"][k])]
-        self._arguments = (len(y), *inputs, pointer(x["p"][k]), *results, compiled.ffi.new("long *"))
+        self.evaluation, self._parts = evaluation, parts
 
-    def evaluate(self) -> bool:
-        """Evaluate the samples of the run that has ended in this row in C; return whether all could be evaluated.
-
-        Cached values of the previous run are dropped. Without quantities to evaluate, return True.
-        """
+    def get_result(self) -> Result:
+        """Return the result of the run that has ended in this row, without cached values of the previous run."""
         cached: dict[str, Any] = vars(self.result)
         self.result.stored.clear()
         for name in _PARAMETER_PROPERTIES:
             cached.pop(name, None)
-        if not self._evaluation_fields:
-            return True
-        for copy, source in zip(self._copies, self._source, strict=True):
-            copy[...] = source
-        for array in self._filled:
-            array.fill(np.nan)
-        cached["evaluation"], cached["a"] = self.evaluation, self.evaluation.a
-        return not self.compiled.lib.gudgeon_evaluate(*self._arguments)
+        if self._parts:
+            cached["evaluation"], cached["a"] = self.evaluation, self.evaluation.a
+        return self.result

@@ -15,7 +15,17 @@ from numpy.typing import ArrayLike
 
 from gudgeon.assembly.journals import check_journal_positions
 from gudgeon.assembly.start import assemble_start
-from gudgeon.contract.boundary import ENDED
+from gudgeon.contract.boundary import (
+    CHECK_POSITION,
+    ENDED,
+    INTEGRATE,
+    NOT_CONFIRMED,
+    NOT_FITTING,
+    NOT_VALID,
+    RUN_FAILED,
+    SERIES_READ,
+    SET_PARAMETERS,
+)
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.reusable_run import N_ROWS
 from gudgeon.language.argument_checks import check_number
@@ -26,12 +36,11 @@ from gudgeon.results.state import State, make_state
 from gudgeon.simulation.arguments import MIN_DURATION_S, MIN_ROUNDINGS, compute_output_times
 from gudgeon.simulation.prepared_run import RunSetup
 from gudgeon.simulation.restart import (
+    MAX_VIOLATION,
     check_resumed_state,
     copy_checked_state,
-    make_position_check,
     merge_parameters,
 )
-from gudgeon.simulation.sample_audit import ReusableSampleAudit
 from gudgeon.simulation.sample_reader import SampleReader
 
 if TYPE_CHECKING:
@@ -62,6 +71,7 @@ class Stepper:
         checked = {"inputs": setup.names, "series": setup.series, "fixed": setup.fixed}
         self._compiled, self._arguments = setup.scene.compiled, arguments | checked
         self._step_varies = setup.method == "rk4" and setup.step is None
+        self._is_set_in_python = setup.columns.needs_python or self._step_varies
         # for scenes that `simulate` runs: the current state, and the state from which the next run begins
         self._state: State | None = None
         self._start: State | None = None
@@ -73,16 +83,9 @@ class Stepper:
         self._run = setup.make_run(np.array([0.0, 1.0]), np.full(N_ROWS, setup.evaluate_step(0, 1.0)))
         self._run.arrays["started"][0] = 1  # C reads each start from the array
         self._reader = SampleReader(self._run, setup.series, 1)
-        self._sample_audit = ReusableSampleAudit(self._run, is_resumed=True)
-        self._arrays = {
-            name: self._run.arrays[name][0]
-            for name in ("start", "y", "initial_discrete_states", "discrete_states", "codes", "state")
-        }
-        self._phi, n = np.zeros(len(setup.scene.source.start_equations)), self._compiled.n
-        self._q = self._arrays["start"][:n]
-        pointer = self._compiled.pointer
-        self._phi_arguments = pointer(self._q), pointer(setup.columns.p[0]), pointer(self._phi, is_written=True)
-        self._fits_constraints = make_position_check(self._compiled)
+        self._run.repeated.is_resumed, self._run.repeated.max_violation = True, MAX_VIOLATION
+        self._arrays = {name: self._run.arrays[name][0] for name in ("start", "initial_discrete_states", "codes")}
+        self._q = self._arrays["start"][: self._compiled.n]
 
     def __repr__(self) -> str:
         """Return mechanism, scene, number of inputs and series, and the time in one line."""
@@ -146,7 +149,7 @@ class Stepper:
                 arrays["initial_discrete_states"][:], arrays["codes"][:] = np.nan, 0
             else:
                 self._set_state(start, x)
-            values = self._integrate(self._t, 1, x)
+            values = self._integrate(self._t, x, INTEGRATE, is_step=False)
             self._x, self._is_reset = x.copy(), True
             return values
 
@@ -166,15 +169,15 @@ class Stepper:
                 compute_output_times(self._setup.scene.source, self._setup.columns.p[0], self._t, t, 1)
             if self._run is None:
                 return self._step_by_simulate(t, x)
+            stage = INTEGRATE
             if x.tobytes() != self._x_key:
-                self._set_inputs(x)
-                self._compiled.lib.gudgeon_phi(self._t, *self._phi_arguments)
-                if not self._fits_constraints(self._phi, self._run.arrays["size"].item(0)):
-                    self._x_key = None
-                    check_resumed_state(self._compiled, self.final, self._setup.columns.p[0])
+                stage, self._x_key = SET_PARAMETERS, None
+                if self._is_set_in_python:
+                    self._set_inputs(x)
+                    stage = CHECK_POSITION
             if self._step_varies:
                 self._run.arrays["step"][0] = self._setup.evaluate_step(0, t - self._t)
-            values = self._integrate(t, 2, x)
+            values = self._integrate(t, x, stage)
             if x is not self._x:
                 self._x = x.copy()
             return values
@@ -210,9 +213,8 @@ class Stepper:
         """Compute parameter values and error tolerances for inputs x (n_inputs,) in row 0. Raises InputError."""
         assert self._run
         self._x_key = None
-        if not (self._setup.columns.compute_values_of_row(x, 0) and self._run.update_tolerances(0)):
+        if not self._run.set_row(x, 0):
             compute_parameter_values(self._compiled, self._setup.get_parameters(x))  # raises the error
-        self._x_key = x.tobytes()
 
     def _set_state(self, start: State, x: Array) -> None:
         """Copy a state into the arrays of the run, as the start of the next step, with inputs x (n_inputs,).
@@ -235,30 +237,33 @@ class Stepper:
             state.state,
         )
 
-    def _integrate(self, t: float, n_samples: int, x: Array) -> Array:
+    def _integrate(self, t: float, x: Array, stage: int, is_step: bool = True) -> Array:
         """Integrate to t (s) with inputs x, make the end the new state, and return the series there.
 
-        An event that ends the run sets `ended`. If `n_samples` is 1, only the series of the start are returned. Raises
-        the error of the run; the state is then unchanged.
+        `stage` (RepeatStage): what was done before for these inputs. An event that ends the run sets `ended`. If it is
+        not a step, only the series of the start are returned. Raises the error of the run, InputError for inputs that
+        are not valid, AssemblyError for those that do not fit the state; the state is then unchanged.
         """
-        run, arrays = self._run, self._arrays
+        run = self._run
         assert run
-        run.times.t[0], run.times.t[1], run.arrays["n_requested"][0] = self._t, t, n_samples
-        status = run.integrate_row(0)
-        if status not in (0, ENDED):
+        self._setup.columns.x[...] = x
+        run.times.t[0], run.times.t[1], run.arrays["n_requested"][0] = self._t, t, 1 + is_step
+        result = run.repeat(0, stage)
+        if result == NOT_VALID:
+            prepare_values(self._compiled, self._setup.get_parameters(x))  # raises the error
+        if result == NOT_FITTING:
+            check_resumed_state(self._compiled, self.final, self._setup.columns.p[0])  # raises the error
+        self._x_key = x.tobytes()
+        if result == RUN_FAILED:
             raise run.build_error(0)
-        if n_samples == 1:
-            return self._reader.read_row(0)[:, 0]
-        if self._sample_audit.audit_samples(0):
+        if not is_step:
+            return self._reader.read_row(0, False)[:, 0]
+        if result == NOT_CONFIRMED:
             self._simulate(t, x, self.final)  # raises the error
-        values, last = self._reader.read_row(0)[:, 0], run.arrays["done"].item(0) - 1
+        values = self._reader.read_row(0, result == SERIES_READ)[:, 0]
         self._is_reset = False  # an interrupt in the next lines would leave an inconsistent state
-        arrays["start"][:] = arrays["y"][last, : 2 * self._compiled.n]
-        arrays["initial_discrete_states"][:], arrays["codes"][:] = (
-            arrays["discrete_states"][last],
-            arrays["state"][last],
-        )
-        self.ended = status == ENDED
+        self._compiled.lib.gudgeon_resume_from_end(run.repeated)
+        self.ended = run.arrays["status"].item(0) == ENDED
         self._t = float(run.arrays["t_last"][0]) if self.ended else t
         self._is_reset = True
         return values

@@ -20,8 +20,10 @@ import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, GudgeonError, InputError, UnknownNameError
 from gudgeon.integrators.adaptive import compute_tolerances
 from gudgeon.integrators.reusable_run import ReusableRun
+from gudgeon.model.parameters import has_valid_values, read_given_parameters
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.results.results import Result
+from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.prepared_run import PreparedRun
 from gudgeon.simulation.simulation import Simulation
 from tests.audit_mutants import mutant
@@ -330,9 +332,80 @@ def test_tolerances_are_those_of_simulate(mechanism: str, scene: str, names: tup
     run = prepared._run
     assert run and lengths
     for scale in (1.0, 1.001, 0.99):
-        assert run.columns.compute_values_of_row(base * scale, 1) and run.update_tolerances(1)
+        assert run.set_row(base * scale, 1)
         p = run.columns.p[1]
         expected = compute_tolerances(sim.compiled, p, 1e-7)
         assert run.arrays["scale"][1].tobytes() == expected[0].tobytes()
         assert run.arrays["min_size"][1].tobytes() == expected[1].tobytes()
         assert run.arrays["size"][1] == compute_mechanism_sizes(sim.source, p)
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "scene"), [("nine_bar_press", "dry"), ("slider_crank", "dry"), ("belt_block", "ideal")]
+)
+def test_valid_values_are_those_of_simulate(mechanism: str, scene: str) -> None:
+    """For random values of all numbers, of which some violate limits or relations of the file, or are not normal."""
+    sim, rng = load(mechanism, scene), np.random.default_rng(8)
+    slots = [slot for slot in sim.source.slots if not slot.words]
+    prepared = sim.prepare([slot.address for slot in slots], (), 0.01, output=1)
+    run, base = prepared._run, np.array([slot.default for slot in slots])
+    assert run
+    values = base * 10.0 ** rng.normal(0.0, 0.05, (400, len(base)))
+    values[np.arange(400), rng.integers(len(base), size=400)] *= rng.choice([-1.0, 0.0, 1e-15, 1.0], 400)
+    found = []
+    for x in values:
+        given, is_given = read_given_parameters(
+            sim.source, {slot.address: value for slot, value in zip(slots, x.tolist(), strict=True)}
+        )
+        p = sim.compiled.prepare(given, is_given)
+        found.append(run.set_row(x, 1))
+        assert found[-1] == has_valid_values(sim.source, p, is_given)
+        assert not found[-1] or run.columns.p[1].tobytes() == p.tobytes()
+    assert 20 < sum(found) < 380
+    for x in (np.nan, np.inf, 1e-310):
+        assert not run.set_row(np.where(np.arange(len(base)) == 1, x, base), 1)
+
+
+MATERIALS = """\
+format: gudgeon/1
+name: drop
+gravity: [0, -9.81 m/s^2]
+parameters: {soft: 110 GPa}
+materials: {steel: {E: 206 GPa, nu: 0.3}, bronze: {E: soft, nu: 0.34}}
+ground: {o: [0, 0]}
+bodies: {ball: {mass: 0.1 kg, inertia: 1e-5 kg*m^2}}
+joints: {A: {revolute: [ground.o, ball.origin]}}
+bearings: {pin: {radius: 10 mm, clearance: 0.3 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts: {dry: {normal: {law: lankarani_nikravesh, restitution: 0.9}}}
+scenes: {dry: {play: {A: {bearing: pin, contact: dry, contour: 16}}, simulate: {t_end: 20 ms, output: 20}}}
+"""
+
+
+def test_chosen_materials_and_contours(tmp_path: Path) -> None:
+    """A chosen material follows the run's parameters; a contour that leaves no clearance is refused as by simulate."""
+    (tmp_path / "drop.yaml").write_text(MATERIALS)
+    sim = gudgeon.load(tmp_path / "drop.yaml", "dry")
+    fixed = {"bearings.pin.journal_material": "bronze"}
+    depth = next(slot.address for k, slot in enumerate(sim.source.slots) if k == sim.source.contours[0].first + 3)
+    prepared = sim.prepare(["soft", depth], ["A.F", "ball.y"], fixed=fixed)
+    assert isinstance(prepared._run, ReusableRun)
+    forces = []
+    for x in ((110e9, 0.0), (60e9, 0.0), (60e9, -1e-4), (60e9, 1e-5)):
+        run = sim.simulate(parameters=fixed | {"soft": x[0], depth: x[1]})
+        assert prepared(x).tobytes() == rows(run, prepared.series, 21).tobytes()
+        forces.append(run["A.F"].max())
+    assert forces[0] > 0.0 and forces[1] > 0.0 and forces[0] != forces[1]
+    wrong = (60e9, -3e-4)
+    assert failure(lambda: prepared(wrong)) == failure(
+        lambda: sim.simulate(parameters=fixed | {"soft": wrong[0], depth: wrong[1]})
+    )
+
+
+def test_all_kinds_of_series_are_those_of_simulate() -> None:
+    """Of columns that C reads and of functions in Python, in turns, for runs of either row."""
+    sim = load("nine_bar_press", "dry")
+    names = list(get_catalogue(sim.source))
+    prepared = sim.prepare("c", names, 0.004, output=7)
+    for c in (3e-4, 4e-4, 3e-4):
+        run = sim.simulate(0.004, output=7, parameters={"c": c}, peaks=())
+        assert prepared([c]).tobytes() == rows(run, prepared.series, 8).tobytes()

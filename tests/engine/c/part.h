@@ -23,6 +23,9 @@
 #pragma weak convert_to_absolute
 #pragma weak compute_velocity_residuals
 #pragma weak velocity_rhs
+#pragma weak gudgeon_audit_samples
+#pragma weak gudgeon_evaluate
+#pragma weak gudgeon_set_parameters
 
 static int failures;
 #define CHECK(mask) \
