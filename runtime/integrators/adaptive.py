@@ -54,6 +54,7 @@ from gudgeon.model.sizes import (
     MIN_RELATIVE_CLEARANCE,
     compute_mechanism_sizes,
     find_size_indices,
+    scatter_lengths,
     select_lengths,
 )
 

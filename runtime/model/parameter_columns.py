@@ -98,12 +98,12 @@ class ParameterColumns:
         struct = self.compiled.ffi.new("ParameterTable *")
         set_struct_pointers(self.compiled.ffi, struct, self._arrays)
         struct.n_targets, struct.n_relations = len(targets), len(relations)
-        struct.n_given, struct.n_parameters = len(self.source.slots), len(lower)
+        struct.n_given, struct.n_parameters = len(self.source.parameters), len(lower)
         return struct
 
     @property
     def needs_python(self) -> bool:
-        """Return whether `compute_row` needs Python: for choices of names, and expressions that may be undefined."""
+        """Return whether `compute_values_of_row` needs Python: choices of names, expressions that may be undefined."""
         return self._has_choices or self._has_partial_expressions
 
     def compute_values_of_row(self, x: Array, k: int) -> bool:

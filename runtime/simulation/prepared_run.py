@@ -52,7 +52,7 @@ from gudgeon.simulation.audit import (
     LIMITS,
     MAX_CALLS_OF_SHORT_RUN,
     SAMPLE_POSITIONS,
-    list_checks_left_out,
+    list_inapplicable_checks,
     parse_audit_level,
 )
 from gudgeon.simulation.hidden_jumps import needs_jump_search
@@ -143,7 +143,7 @@ class RunSetup:
         quantities at all samples, which only `simulate` evaluates.
         """
         run = ReusableRun(self.columns, t, self.method, steps, self.rtol, self.stop, self.audit)
-        left_out = list_checks_left_out(self.scene.source, self.method)
+        left_out = list_inapplicable_checks(self.scene.source, self.method)
         run.repeated.drawn = SAMPLE_POSITIONS.tolist()
         run.repeated.limit = [math.inf if check in left_out else AUDIT_FAILS * x for check, x in LIMITS.items()]
         run.repeated.max_calls_of_short_run = MAX_CALLS_OF_SHORT_RUN

@@ -45,8 +45,8 @@ class SampleReader:
         self.values = np.empty((len(names), self.n_samples - n_skipped))  # that C stores
         self._samples, self._computed = list[_ReusableSamples](), list[tuple[int, Callable[[Result], Array]]]()
         if self._is_reusable:
-            evaluation, pointers = allocate_evaluation(run.compiled, self.n_samples, self.parts)
-            self._samples = [_ReusableSamples(run, k, self.parts, evaluation) for k in range(N_ROWS)]
+            evaluation, pointers = allocate_evaluation(run.compiled, self.n_samples, self.evaluation_fields)
+            self._samples = [_ReusableSamples(run, k, self.evaluation_fields, evaluation) for k in range(N_ROWS)]
             self._set_columns([pointer for pointer, _ in pointers])
 
     def _set_columns(self, pointers: Sequence[Any]) -> None:
@@ -67,7 +67,7 @@ class SampleReader:
         repeated.columns, repeated.strides = self._addresses, compiled.pointer(self._strides, "long *")
         repeated.values = compiled.pointer(self.values, is_written=True)
         repeated.n_series, repeated.n_skipped = len(names), self.n_skipped
-        repeated.is_read, repeated.is_evaluated, repeated.evaluated = True, bool(self.parts), pointers
+        repeated.is_read, repeated.is_evaluated, repeated.evaluated = True, bool(self.evaluation_fields), pointers
 
     def _find_column(self, samples: _ReusableSamples, name: str) -> Array | Callable[[Result], Array]:
         """Return the view (N,) of a series in the reused arrays of a row, or the function that computes the series."""
@@ -95,7 +95,7 @@ class SampleReader:
                     self.values[i] = compute(stored)[self.n_skipped :]
             return self.values.copy()
         values = np.full_like(self.values, np.nan)
-        result = build_samples(self.run, k, self.parts)
+        result = build_samples(self.run, k, self.evaluation_fields)
         assert result is not None
         first = self.n_skipped if len(result.t) > 1 else 0  # a run that ends at its start has no other sample
         for row, name in zip(values, self.names, strict=True):
@@ -106,7 +106,7 @@ class SampleReader:
 class _ReusableSamples:
     """Hold the samples of one row as a result without diagnostics, whose arrays are views of those of the run."""
 
-    def __init__(self, run: ReusableRun, k: int, parts: frozenset[str], evaluation: Evaluation) -> None:
+    def __init__(self, run: ReusableRun, k: int, evaluation_fields: frozenset[str], evaluation: Evaluation) -> None:
         compiled, x, n = run.compiled, run.arrays, run.compiled.n
         y, joints = x["y"][k], len(compiled.source.clearances)
         memory, state = x["discrete_states"][k][:, : compiled.n_discrete_states], x["state"][k][:, :joints]
@@ -122,7 +122,7 @@ class _ReusableSamples:
             state,
             evaluation_fields,
         )
-        self.evaluation, self._parts = evaluation, parts
+        self.evaluation, self._evaluation_fields = evaluation, evaluation_fields
 
     def get_result(self) -> Result:
         """Return the result of the run that has ended in this row, without cached values of the previous run."""
@@ -130,6 +130,6 @@ class _ReusableSamples:
         self.result.stored.clear()
         for name in _PARAMETER_PROPERTIES:
             cached.pop(name, None)
-        if self._parts:
+        if self._evaluation_fields:
             cached["evaluation"], cached["a"] = self.evaluation, self.evaluation.a
         return self.result

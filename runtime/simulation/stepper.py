@@ -250,7 +250,7 @@ class Stepper:
         run.times.t[0], run.times.t[1], run.arrays["n_requested"][0] = self._t, t, 1 + is_step
         result = run.repeat(0, stage)
         if result == NOT_VALID:
-            prepare_values(self._compiled, self._setup.get_parameters(x))  # raises the error
+            compute_parameter_values(self._compiled, self._setup.get_parameters(x))  # raises the error
         if result == NOT_FITTING:
             check_resumed_state(self._compiled, self.final, self._setup.columns.p[0])  # raises the error
         self._x_key = x.tobytes()
