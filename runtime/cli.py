@@ -86,7 +86,7 @@ def simulate_file(
     out: opt.Out = Path("out"),
     regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
     verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="Also show values that docs/error_control.md explains.")
+        bool, typer.Option("--verbose", "-v", help="Also show values that docs/runs_and_results.md explains.")
     ] = False,
     report: opt.Report = False,
     json: opt.Json = False,

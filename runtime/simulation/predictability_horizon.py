@@ -1,14 +1,15 @@
 """Compute the predictability horizon of a run: the time up to which it agrees with perturbed repetitions.
 
-`simulate(..., horizon=True)` repeats the run with a tolerance a hundred times tighter (or a step four times smaller),
-and from a start that is moved by 1e-12. Impacts amplify such differences. Beyond the horizon, the trajectory is one
-of many that the same parameters allow, and only its statistics are meaningful. The horizon is the last compared time
-before the run and a repetition differ by a quarter of the radial clearance, in the path of a journal. Without play,
-the limit is a quarter of the mechanism's size, and of 1 rad for angles.
+`simulate(..., horizon=True)` repeats the run unchanged, with a tolerance a hundred times tighter (or a step four times
+smaller), and from a start that is moved by 1e-12. Impacts amplify such differences. Beyond the horizon, the trajectory
+is one of many that the same parameters allow, and only its statistics are meaningful. The horizon is the last compared
+time before a perturbed repetition differs from the unchanged one by a quarter of the radial clearance, in the path of
+a journal. Without play, the limit is a quarter of the mechanism's size, and of 1 rad for angles.
 
-Neither t_end nor the output of the run enter. Times are compared at 4,000 points between 4^k s and 4^(k + 1) s after
-the start, for increasing k, until the runs differ. The resolution is thus 2e-4 of the horizon or better. If the runs
-differ in the interval that t_end cuts off, that whole interval is compared again.
+The output of the run does not enter. Repetitions are compared at 4,000 times between 4^k s and 4^(k + 1) s after the
+start, for increasing k, until they differ. The resolution is thus 8e-4 of the horizon or better. Only the end of the
+first interval, which begins at the start, depends on t_end (MIN_INTERVAL). If the repetitions differ in the interval
+that t_end cuts off, that whole interval is compared again.
 
 The horizon belongs to the run, not to the scene: each digit of tolerance extends it, until rounding dominates. With
 the Lyapunov exponent λ, its mean over all runs is ln(max_difference/error)/λ: Lyapunov.believable.
