@@ -111,7 +111,7 @@ def call_of(program: Program, law: Law) -> tuple[str, list[str]]:
     """Return the call in C with arguments from `at`, and the names of these variables."""
     pin = program.joints[0]
     if law.role == "mixed":
-        return f"const double delta = at[0];\n{print_statements(pin.share)}\nout[0] = share;", ["delta"]
+        return f"const double delta = at[0];\n{print_statements(pin.blend)}\nout[0] = share;", ["delta"]
     own: SharedFunctionCall = pin.laws[law.role]
     names = [a.name for a in own.kernel.arguments if a.name in law.variables]
     results = [f"&out[{k}]" for k in range(len(law.results))]
