@@ -202,7 +202,7 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
 }
 
 /* Remove all contacts from the list, whose records the caller does not need. */
-static void discard_contacts(Integrator *run) { run->contacts.n_impacts = 0; }
+static void discard_contacts(Integrator *run) { run->contacts.n_records = 0; }
 
 /*
  * Move the oldest contacts, at most `capacity`, from the list into `values` (rows of ImpactColumn) and `joints` (their

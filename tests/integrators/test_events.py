@@ -222,3 +222,15 @@ def test_leaps_at_the_end_and_at_the_start_of_runs(method: str, folder: Path) ->
         for name in ("period", "less"):
             np.testing.assert_allclose(times.pop(name), T * np.arange(1, 8), rtol=0, atol=1e-11)
         assert [len(some) for some in times.values()] == [1, 1, 1]
+
+
+@pytest.mark.parametrize(("method", "step"), [("auto", None), ("rk4", 1e-3)])
+def test_events_in_driven_loops(method: str, step: float | None, folder: Path) -> None:
+    """The shaker's table is at the length l of its rod where sin θ = a/(2 l), with the crank a at θ = ω t."""
+    text = (resources.files("gudgeon") / "mechanisms/shaker.yaml").read_text(encoding="utf-8")
+    path = folder / f"shaker_{method}.yaml"
+    path.write_text(text.replace("outputs:", "events: {level: {zero: table.y - 60 mm}}\noutputs:"), encoding="utf-8")
+    run = gudgeon.load(path).simulate(0.5, output=5, method=method, step=step)
+    omega, first = 60 * np.pi, np.arcsin(1.0 / 12.0)
+    expected = [(angle + 2 * np.pi * turn) / omega for turn in range(15) for angle in (first, np.pi - first)]
+    assert np.abs(run.events_of("level") - expected).max() < CLOSE
