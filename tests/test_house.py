@@ -40,7 +40,7 @@ def test_no_regular_expression_looks_at_emitted_text() -> None:
     read = {("printer.py", "sanitize_comment"), ("readme.py", "_escape_markdown"), ("letters.py", "make_word_name")}
     read |= {("theory.py", "find_sketch_symbols")}
     read |= {("equal_parts.py", function) for function in ("", "_replace_tokens", "_print_joined_part")}
-    read |= {("law_page.py", function) for function in ("_format_words", "_format_source", "_name_film_clearance")}
+    read |= {("law_page.py", function) for function in ("_format_source", "_name_film_clearance")}
     read |= {("law_symbols.py", name) for name in ("", "_brace_index", "_normalize_latex")}
     read |= {("law_symbols.py", name) for name in ("find_symbols", "list_symbol_rows")}
     assert users == read
