@@ -244,7 +244,14 @@ def test_a_contact_of_the_chain_of_dry_joints_is_that_of_the_oracle() -> None:
 def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
     page = race_page.PAGE.read_text(encoding="utf-8")
     assert race_page.filled(page, race_record.read(race_page.CSV)) == page
-    assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {"machine", "ratios", "bars", "setups", "evaluations", *race_record.MEASURES}
+    assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {
+        "machine",
+        "ratios",
+        "bars",
+        "setups",
+        "evaluations",
+        *race_record.MEASURES,
+    }
     with pytest.raises(ValueError, match="nobody"):
         race_page.filled("<!-- race: nobody -->\n<!-- end -->", record())
 

@@ -108,8 +108,8 @@ MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, $\\delta = e - c$; in a non-circular bearing, $c$ is that at the angle of the journal",
     "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
-    "in a film alone, $F_n = -F_r$. In a closed contact of rigid surfaces, $F_n$ is the multiplier of $\\delta = 0$ and "
-    "the member `contact->force` of `engine/run/impacts.c`",
+    "in a film alone, $F_n = -F_r$. In a closed contact of rigid surfaces, $F_n$ is the multiplier of $\\delta = 0$ "
+    "and the member `contact->force` of `engine/run/impacts.c`",
     "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
     "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
@@ -144,7 +144,8 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (steps.a_j, "lever arm of $F_t$ about the centre of the journal", "", "a_j", "m"),
     (
         steps.w_n,
-        "effective squeeze velocity of a film along $\\mathbf n$, divided by $c_{\\text{film}}$: $w_n = \\dot\\varepsilon$",
+        "effective squeeze velocity of a film along $\\mathbf n$, divided by $c_{\\text{film}}$: "
+        "$w_n = \\dot\\varepsilon$",
         "",
         "w_n",
         "1/s",
@@ -209,7 +210,8 @@ MIXED = (
     ("\\eta", "height of an asperity divided by $\\sigma_r$", "", "", "1"),
     (
         "F_{5/2}",
-        "$\\int_\\Lambda^\\infty (\\eta - \\Lambda)^{5/2} \\phi(\\eta)\\,d\\eta$, with the standard normal density $\\phi$",
+        "$\\int_\\Lambda^\\infty (\\eta - \\Lambda)^{5/2} \\phi(\\eta)\\,d\\eta$, "
+        "with the standard normal density $\\phi$",
         "",
         "",
         "1",
@@ -322,6 +324,7 @@ OTHER_SYMBOLS = (  # symbols of physics.md in no other table: symbols, quantity,
     ("\\delta_{\\text{tol}}", "penetration that counts as rounding", "m", "3"),
     ("v_c", "separation speed up to which an impact leaves no separation, at least $v_{\\text{th}}$", "m/s", "3"),
     ("h_b$, $t_b", "smallest height and smallest rise time of a bounce that a run resolves", "m, s", "3"),
+    ("m_c", "effective mass of a contact", "kg", "3"),
     ("E^{*}", "contact modulus", "Pa", "3"),
     ("R^{*}", "effective radius of a contact", "m", "3"),
     ("e_r", "delivered coefficient of restitution", "1", "3"),
@@ -594,7 +597,7 @@ def _format_c_member(key: str) -> str:
 
 
 def _format_unit(field: Field) -> str:
-    """Return the SI unit of a field as text; 1 for a pure number, UNIT_OF_COEFFICIENT for a stiffness by its exponent."""
+    """Return the SI unit of a field as text; 1 for a pure number, N/m$^n$ for a stiffness by its exponent."""
     if field.dimension is None:
         return UNIT_OF_COEFFICIENT if field.per else NONE
     return format_unit(find_si_unit(field.dimension)) or "1"

@@ -241,9 +241,7 @@ def facts(record: Record, work: str = "") -> list[str]:
         return machine_facts(record)
     prefix = f"{work}, "
     found = [
-        f"- {name.removeprefix(prefix)}: {set_powers(x)}"
-        for name, x in record.facts.items()
-        if name.startswith(prefix)
+        f"- {name.removeprefix(prefix)}: {set_powers(x)}" for name, x in record.facts.items() if name.startswith(prefix)
     ]
     runs = record.runs(work)
     return [*found, f"- measured in run {', '.join(map(str, runs))}"] if len(record.runs()) > 1 and runs else found

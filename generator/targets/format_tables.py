@@ -135,9 +135,7 @@ def _describe_values(field: Field) -> str:
     if field.kind == NUMBER:
         alternatives = "".join(f" or `{word}`" for word in field.words)
         unit = f"N/m$^n$ with the number n of the key `{field.per}`" if field.per else _describe_unit(field.dimension)
-        return f"number, {unit}{alternatives}" + (
-            f"; of {field.varies}" if field.varies else ""
-        )
+        return f"number, {unit}{alternatives}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind == VECTOR:
         return f"[x, y], {_describe_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind in (WORD, FLAG):

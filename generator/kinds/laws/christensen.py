@@ -47,8 +47,8 @@ LAW = Law(
     "lubrication, the same 186 (1972) 421-430",
     validity="heights of the roughness with a nearly normal distribution, uniform over both surfaces",
     properties=MarkedText(
-        r"the film acts alone where it is thicker than $3 \sigma_r$, and the dry contact acts alone below $-3 \sigma_r$; "
-        r"the clearance $c$ is measured between the tips of the asperities, and the film has the clearance "
+        r"the film acts alone where it is thicker than $3 \sigma_r$, and the dry contact acts alone below $-3 \sigma_r$"
+        r"; the clearance $c$ is measured between the tips of the asperities, and the film has the clearance "
         r"$c + 3 \sigma_r$; the weight $b$ is the fraction of the area in contact, and is three times differentiable"
     ),
     fields=(ROUGHNESS,),

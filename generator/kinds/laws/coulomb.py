@@ -39,9 +39,7 @@ LAW = Law(
     ),
     fields=(
         MU,
-        declare_slip_field(
-            "v0", MarkedText(r"slip at which friction is $\tanh 1 = 0.76$ of its largest value"), "v_0"
-        ),
+        declare_slip_field("v0", MarkedText(r"slip at which friction is $\tanh 1 = 0.76$ of its largest value"), "v_0"),
     ),
     build=build_friction_force,
 )

@@ -49,7 +49,8 @@ LAW = Law(
     validity="penetrations for which the user knows the elastic force; the elastic force must be 0 at zero "
     "penetration, which every run checks with its parameter values; the elastic force must not be "
     "negative up to the clearance, or up to `deepest` where the file gives it",
-    properties="at loading, gudgeon checks the sign of the force with the parameter values of the file and of its scenes",
+    properties="at loading, gudgeon checks the sign of the force with the parameter values of the file and of its "
+    "scenes",
     fields=(
         number(
             "force",

@@ -26,7 +26,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.roles import LARGE_ECCENTRICITY, OIL_FIELDS, TINY, make_film_clearance, make_shear_torque
+from gudgeon.generator.kinds.laws.roles import (
+    LARGE_ECCENTRICITY,
+    OIL_FIELDS,
+    TINY,
+    make_film_clearance,
+    make_shear_torque,
+)
 from gudgeon.generator.marked_text import MarkedText
 
 # g = n0 + s (n1/(Λ + n2 s) + n3 + n4 s + n5 Λ s); n0 is the narrow gap's, which is long whatever Λ

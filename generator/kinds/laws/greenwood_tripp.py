@@ -52,8 +52,8 @@ LAW = Law(
     properties=MarkedText(
         r"the film acts alone where it is thicker than $4 \sigma_r$, and the dry contact acts alone where the mean "
         r"surfaces meet; the clearance $c$ is measured between the tips of the asperities, and the film has the "
-        r"clearance $c + 4 \sigma_r$; the weight $b$ is the load of the asperities divided by their load where the mean "
-        r"surfaces meet; the approximation of $b$ deviates by at most 0.014"
+        r"clearance $c + 4 \sigma_r$; the weight $b$ is the load of the asperities divided by their load where the "
+        r"mean surfaces meet; the approximation of $b$ deviates by at most 0.014"
     ),
     fields=(ROUGHNESS,),
     build=build_greenwood_tripp_fraction,

@@ -60,8 +60,8 @@ LAW = Law(
         "load as in C. Canudas de Wit, P. Tsiotras, Proc. 38th IEEE Conf. Decision and Control (1999) 3746–3751"
     ),
     validity=MarkedText(
-        r"presliding and sliding; the friction is passive at constant $F_n$ where $\sigma_1 \le 4 g_v/\lvert v_t\rvert$, "
-        r"for which $\sigma_1 \le 4 c_f/\lvert v_t\rvert$ is sufficient"
+        r"presliding and sliding; the friction is passive at constant $F_n$ where $\sigma_1 \le 4 g_v/\lvert v_t\rvert$"
+        r", for which $\sigma_1 \le 4 c_f/\lvert v_t\rvert$ is sufficient"
     ),
     properties="passive friction returns at most the energy that the bristles have stored",
     fields=(

@@ -88,8 +88,8 @@ LAW = Law(
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
     "with squeeze: the half film lies where the pressure is above that of the ends",
     validity=MarkedText(
-        r"a short bearing ($L/(2R_j) < 1/2$); at $L/(2R_j)$ = 1 the law overestimates the load, by a factor of 2 and more "
-        r"at large $\varepsilon$"
+        r"a short bearing ($L/(2R_j) < 1/2$); at $L/(2R_j)$ = 1 the law overestimates the load, by a factor of 2 and "
+        r"more at large $\varepsilon$"
     ),
     properties=LARGE_ECCENTRICITY,
     limits=Limits(l_over_d=(0.0, 0.5)),

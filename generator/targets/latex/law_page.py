@@ -152,8 +152,8 @@ def _describe_common_keys() -> Iterator[str]:
         " of `dissipation`."
     )
     yield (
-        "- With `geometry: internal`, $R_i + R_j$ in the equation of $K$ becomes $R_i - R_j$. For steel with radii of 10"
-        " and 9.5 mm, `external` gives 1.06·10¹⁰ N/m$^{1.5}$ and `internal` 6.61·10¹⁰ N/m$^{1.5}$. The literature on"
+        "- With `geometry: internal`, $R_i + R_j$ in the equation of $K$ becomes $R_i - R_j$. For steel with radii of"
+        " 10 and 9.5 mm, `external` gives 1.06·10¹⁰ N/m$^{1.5}$ and `internal` 6.61·10¹⁰ N/m$^{1.5}$. The literature on"
         " such slider-cranks prints 6.61·10¹⁰."
     )
     yield (
@@ -217,7 +217,7 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
     `common_symbols` are those of the chapter's table, which the law's table leaves out.
     """
     yield from (f"### `{law.name}`", "", f"{make_sentence(get_markdown(law.title))}", "")
-    yield from (f"Example: `{_make_example(law)}`", "")
+    yield from (f"Example: `{make_example(law)}`", "")
     if law.also:
         names_text = ", ".join(f"`{name}`" for name in law.also)
         yield from (f"Other names, each for `{law.name}` with the `dissipation` of that name: {names_text}.", "")
@@ -246,7 +246,7 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
     yield from (f"**Source**: {_format_source(law.reference or law.source)}.", "")
 
 
-def _make_example(law: Law) -> str:
+def make_example(law: Law) -> str:
     """Return a line of YAML of a contact with the law and its required keys."""
     required = [field.name for field in law.fields if field.required]
     values = {name: _EXAMPLES.get(f"{law.name}.{name}") or _EXAMPLES[name] for name in required}

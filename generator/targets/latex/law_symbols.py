@@ -73,8 +73,8 @@ _SYMBOLS: Mapping[str, tuple[str, str]] = {
     r"\Lambda": (r"film thickness ratio: film thickness divided by $\sigma_r$", "1"),
     r"\eta": (r"height of the roughness divided by $\sigma_r$", "1"),
     r"F_{5/2}": (
-        r"$\int_\Lambda^\infty (\eta - \Lambda)^{5/2} \phi(\eta)\,d\eta$, with the height $\eta$ of an asperity divided by"
-        r" $\sigma_r$ and its standard normal density $\phi$",
+        r"$\int_\Lambda^\infty (\eta - \Lambda)^{5/2} \phi(\eta)\,d\eta$, with the height $\eta$ of an asperity divided"
+        r" by $\sigma_r$ and its standard normal density $\phi$",
         "1",
     ),
 }
