@@ -44,9 +44,7 @@ def test_no_regular_expression_looks_at_emitted_text() -> None:
     }
     read |= {("theory.py", "find_sketch_symbols")}
     read |= {("equal_parts.py", function) for function in ("", "_replace_tokens", "_print_joined_part")}
-    read |= {
-        ("law_page.py", function) for function in ("_format_declared_text", "_format_source", "_name_film_clearance")
-    }
+    read |= {("law_page.py", function) for function in ("_format_source", "_name_film_clearance")}
     read |= {("law_symbols.py", name) for name in ("", "_brace_index", "_normalize_latex")}
     read |= {("law_symbols.py", name) for name in ("find_symbols", "list_symbol_rows")}
     assert users == read

@@ -18,7 +18,8 @@ import sympy as sp
 from gudgeon.generator.equations import contact_steps as steps
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
-from gudgeon.generator.kinds.laws.law import CONSTRAINT_VARIABLES, RESULTS, find_bundled_laws
+from gudgeon.generator.kinds.laws.law import RESULTS, find_bundled_laws
+from gudgeon.generator.marked_text import get_markdown
 from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_symbol
 from gudgeon.generator.targets.latex.play import BEARING_DIMENSIONS
@@ -39,33 +40,27 @@ Example of a row: the slip velocity $v_t$ of joint A is the series `run["A.vt"]`
 `rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
 relative to the bearing's. Every other row is read in the same way.
 
-Symbols and placeholders:
+Conventions:
 
-- A symbol stands for one quantity, except $K$, $S$, $v_0$ and $c$, which each force law or joint type defines.
+- On this page, a symbol stands for one quantity, except $K$, $S$, $v_0$, $c$, $c_e$ and $c_f$, which each force law or
+  joint type defines. [Algorithms](algorithms.md) and [predictability](predictability.md) define further symbols.
 - Bold letters are vectors.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
 - The sign – in a column marks a quantity that has no name there.
-- [The last table](#other-symbols-of-the-equations) lists the symbols of intermediate and general quantities.
-
-Units:
-
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
-
-Signs:
-
-- Variables in C have the sign of their quantity. One exception is `rhs->clearance[i].F_n`: its value is $-F_n$, where
-  $F_n$ is the normal force.
-- In the NumPy functions (`equations.dynamics`), the attribute `F_n` of a joint is $-F_n$ too.
-
-Names in C:
-
+- Variables have the sign of their quantity. Two variables have the opposite sign: `rhs->clearance[i].F_n` in C and the
+  attribute `F_n` of `equations.dynamics` are $-F_n$.
 - Some names in C differ from the term of their quantity: see
   [the table of these names](#names-in-c-that-differ-from-the-term).
+
+[The index](#index-of-names-in-c) leads from a name in C to its symbol.
+[Other symbols of the equations](#other-symbols-of-the-equations) are intermediate and general quantities.
 
 `make tables` writes this page from the declarations in the code. A test compares the page with the symbols of
 [physics](physics.md).
 """
 NONE = "–"
+UNIT_OF_COEFFICIENT = "N/m$^n$"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
     ("t", "time", "t", "`t`", "`run.t`", "`t`", "s"),
     ("q", "coordinates of all bodies", "q", "`BODY.x`, `.y`, `.theta`", "`run.q`", "`q`", "m, rad"),
@@ -97,23 +92,24 @@ SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
     ("\\beta", "Baumgarte's gain of $\\Phi$", "\\beta", "", "`baumgarte.beta`", "`p->beta_`", "1/s"),
 )
 PLAY = {  # series: symbol of the equations, the paper's symbol
+    "ex": (steps.e_x, "e_x"),
+    "ey": (steps.e_y, "e_y"),
+    "e": (steps.e, "e"),
+    "delta": (steps.delta, "\\delta"),
+    "deltadot": (steps.deltadot, "\\dot\\delta"),
+    "vt": (steps.v_t, "v_t"),
     "Fx": (steps.F_x, ""),
     "Fy": (steps.F_y, ""),
     "Fn": (sp.Symbol("F_n", real=True), "F_n"),
     "Ft": (steps.F_along_t, "F_t"),
-    "ex": (steps.e_x, "e_x"),
-    "ey": (steps.e_y, "e_y"),
-    "e": (steps.e, "e"),
-    "deltadot": (steps.deltadot, "\\dot\\delta"),
-    "vt": (steps.v_t, "v_t"),
-    "delta": (steps.delta, "\\delta"),
 }  # series of CLEARANCE
 MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "e": "eccentricity: distance of the centres of journal and bearing",
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, $\\delta = e - c$; in a non-circular bearing, $c$ is that at the angle of the journal",
     "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
-    "in a film alone, $F_n = -F_r$. The member in C is the component along $\\mathbf n$",
+    "in a film alone, $F_n = -F_r$. In a closed contact of rigid surfaces, $F_n$ is the multiplier of $\\delta = 0$ "
+    "and the member `contact->force` of `engine/run/impacts.c`",
     "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
     "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
@@ -135,19 +131,37 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
         "contact->deltadot_minus",
         "m/s",
     ),
-    (steps.epsilon, "eccentricity ratio $e/c$", "`JOINT.eps`", "epsilon", "1"),
+    (
+        steps.epsilon,
+        "eccentricity ratio $e/c_{\\text{film}}$; $e/c$ without `extra_clearance` and `mixed`",
+        "`JOINT.eps`",
+        "epsilon",
+        "1",
+    ),
     (steps.omega_i, "angular velocity of the bearing", "`BODY.omega`", "omega_i", "rad/s"),
     (steps.omega_j, "angular velocity of the journal", "`BODY.omega`", "omega_j", "rad/s"),
     (steps.a_i, "lever arm of $F_t$ about the centre of the bearing", "", "a_i", "m"),
     (steps.a_j, "lever arm of $F_t$ about the centre of the journal", "", "a_j", "m"),
-    (steps.w_n, "effective squeeze velocity of a film along $\\mathbf n$, divided by $c$", "", "w_n", "1/s"),
-    (steps.w_t, "effective squeeze velocity of a film along $\\mathbf t$, divided by $c$", "", "w_t", "1/s"),
+    (
+        steps.w_n,
+        "effective squeeze velocity of a film along $\\mathbf n$, divided by $c_{\\text{film}}$: "
+        "$w_n = \\dot\\varepsilon$",
+        "",
+        "w_n",
+        "1/s",
+    ),
+    (
+        steps.w_t,
+        "effective squeeze velocity of a film along $\\mathbf t$, divided by $c_{\\text{film}}$",
+        "",
+        "w_t",
+        "1/s",
+    ),
     (sp.Symbol("F_r", real=True), "force of a film along $\\mathbf n$", "", "F_r", "N"),
     (steps.gradient_length, "length of the gradient of $\\delta$ in a bearing with a contour", "", "steep", "1"),
     (steps.contour_depth, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
     (steps.beta_i, "angle of $\\mathbf e$ in the body of the bearing, with a contour", "", "beta_i", "rad"),
 )
-LAMBDA_N = NAMES[sp.Symbol(CONSTRAINT_VARIABLES[0], real=True)].latex
 IMPACTS = (  # symbol, quantity, Python, C, unit
     ("\\dot{\\delta}^{+}", "rate of $\\delta$ after the impact", "", "", "m/s"),
     (
@@ -181,15 +195,27 @@ IMPACTS = (  # symbol, quantity, Python, C, unit
         "1/kg",
     ),
     ("G_t", "change of the slip per unit of $P_t$", "", "`S[k][k]`", "1/kg"),
-    (LAMBDA_N, "multiplier of a closed contact: its normal force", "`JOINT.Fn`", "`contact->force`", "N"),
 )
 MIXED = (
-    (NAMES[steps.share].latex, "fraction of the load that the dry contact carries", "", "`share`", "1"),
+    (
+        NAMES[steps.share].latex,
+        "weight of the dry force in $\\mathbf F = b\\,\\mathbf F_{\\text{dry}} + (1 - b)\\,\\mathbf F_{\\text{film}}$",
+        "",
+        "`share`",
+        "1",
+    ),
     ("h", "film thickness between the mean surfaces", "", "", "m"),
     ("\\Lambda", "film thickness ratio $h/\\sigma_r$", "", "", "1"),
     ("\\Lambda_0", "film thickness ratio at $\\delta = 0$", "", "", "1"),
     ("\\eta", "height of an asperity divided by $\\sigma_r$", "", "", "1"),
-    ("F_{5/2}", "mean of $(\\eta - \\Lambda)^{5/2}$ over the heights $\\eta > \\Lambda$", "", "", "1"),
+    (
+        "F_{5/2}",
+        "$\\int_\\Lambda^\\infty (\\eta - \\Lambda)^{5/2} \\phi(\\eta)\\,d\\eta$, "
+        "with the standard normal density $\\phi$",
+        "",
+        "",
+        "1",
+    ),
 )
 WEAR = (
     ("V_w", "worn volume of one surface", "`worn.bearing.volume`, `worn.journal.volume`", "", "m³"),
@@ -234,16 +260,8 @@ IN_LAWS = {field: sign for field, sign, _ in BEARING_DIMENSIONS}  # symbols of a
 IN_GUIDE = {field: sign for field, sign, _ in GUIDE_LETTERS}
 IN_SECTION = {  # what the words of a declaration do not say: the term of physics.md
     "bearings.NAME.length": "length of the bearing: length of the pin in the hole",
+    "contacts.NAME.velocity_floor": "smallest $\\dot\\delta^{-}$ that is stored at the onset of a contact",
     "guides.NAME.gap": "clearance: gap on each side, half the difference of the widths of slot and slider",
-}
-FORMULAS = {  # symbols in the words of declarations, and how the page shows them
-    "tanh(v_t/v0)": "$\\tanh(v_t/v_0)$",
-    "beyond v0": "beyond $v_0$",
-    "tanh 1 = 0.76": "$\\tanh 1 = 0.76$",
-    "fallen to 1/e": "fallen to $1/\\mathrm{e}$",
-    "added to c,": "added to $c$,",
-    "smallest δ̇⁻": "smallest $\\dot\\delta^{-}$",
-    "penetration delta": "penetration `delta`",
 }
 IN_CONTACT = {"transition": "e_0", "velocity_floor": "v_{\\min}"}  # as physics.md
 OF_MATERIAL = {"E": "E_i$, $E_j", "nu": "\\nu_i$, $\\nu_j"}  # of the surface of the bearing or the journal
@@ -258,7 +276,7 @@ IN_PAPER = {
     "bodies.BODY.length": "L",
 }
 DERIVED = (  # name in the functions of the laws, quantity, laws, unit
-    ("K", "contact stiffness", "laws of the normal force with a stiffness", "N/m^n"),
+    ("K", "contact stiffness", "laws of the normal force with a stiffness", UNIT_OF_COEFFICIENT),
     ("hysteresis", "hysteresis damping factor, by `dissipation`", "laws with `dissipation`", "1"),
     ("F_e", "elastic force: the value of the expression $f_\\delta$", "`expression`", "N"),
     ("friction_slope", "$1/(v_1 - v_0)$", "`modified_coulomb`", "s/m"),
@@ -280,7 +298,7 @@ C_NAMES = (  # name in C, symbol, quantity, not to be confused with
     ("`worn`", "d", "depth of a contour, also without wear", "`worn` in Python, the result of `gudgeon.wear`"),
     ("`F_N`, with a contour", "F_n", "normal force", ""),
     ("`F_n`, with a contour", "F_\\delta", "result of the normal law", "the normal force $F_n$"),
-    ("`share`", "b", "fraction of the load on the dry contact", ""),
+    ("`share`", "b", "weight of the dry force", ""),
     ("`T0`", "D_s", "shear torque divided by $\\omega_j - \\omega_i$", "a torque: the unit of `T0` is N·m·s"),
     ("`factor`", "f", "correction of the squeeze motion", ""),
     ("`root`", "s_\\varepsilon", "$\\sqrt{1 - \\varepsilon^2}$", ""),
@@ -306,6 +324,7 @@ OTHER_SYMBOLS = (  # symbols of physics.md in no other table: symbols, quantity,
     ("\\delta_{\\text{tol}}", "penetration that counts as rounding", "m", "3"),
     ("v_c", "separation speed up to which an impact leaves no separation, at least $v_{\\text{th}}$", "m/s", "3"),
     ("h_b$, $t_b", "smallest height and smallest rise time of a bounce that a run resolves", "m, s", "3"),
+    ("m_c", "effective mass of a contact", "kg", "3"),
     ("E^{*}", "contact modulus", "Pa", "3"),
     ("R^{*}", "effective radius of a contact", "m", "3"),
     ("e_r", "delivered coefficient of restitution", "1", "3"),
@@ -418,6 +437,7 @@ def make_notation_page() -> str:
     ]
     other_rows = ((f"${symbols}$", *rest) for symbols, *rest in OTHER_SYMBOLS)
     lines += _format_table(("symbol", "quantity", "unit", "section of physics"), other_rows)
+    lines += ["", "## Index of names in C", "", *_format_table(("name in C", "symbol", "section"), _index_names(lines))]
     page = "\n".join([*lines, ""])
     if ambiguous := find_ambiguous_symbols(page):
         raise ValueError("docs/notation.md: symbols with two meanings: " + "; ".join(ambiguous))
@@ -483,9 +503,28 @@ def _format_table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[st
     return [re.sub(r"_\{(\w)\}|_\{\\text\{(\w)\}\}", lambda found: f"_{found[1] or found[2]}", line) for line in lines]
 
 
+def _index_names(lines: Iterable[str]) -> list[tuple[str, str, str]]:
+    """Return name in C, symbol and section of each variable in the tables of the page, by name.
+
+    Members of `struct Parameters` are left out: their key is in a comment of `model.h`.
+    """
+    found, section, column = set(), "", -1
+    for line in "\n".join(lines).splitlines():
+        cells = line.removeprefix("| ").removesuffix(" |").split(" | ")
+        if line.startswith("## "):
+            section = line.removeprefix("## ")
+        elif line.startswith("| symbol "):
+            column = cells.index("C") if "C" in cells else -1
+        elif line.startswith("| $") and column >= 0:
+            names = re.findall(r"`([^`]+)`", cells[column])
+            signs = {name: "−" * (f"−`{name}`" in cells[column]) for name in names}
+            found |= {(f"`{x}`", signs[x] + cells[0], section) for x in names if not x.startswith("p->")}
+    return sorted(found, key=lambda row: (row[0].lower(), row))
+
+
 def _iterate_play_rows() -> Iterator[tuple[str, ...]]:
-    for name, (_, unit, meaning) in CLEARANCE.items():
-        symbol, paper = PLAY[name]
+    for name, (symbol, paper) in PLAY.items():
+        _, unit, meaning = CLEARANCE[name]
         shown = NAMES[symbol].latex if symbol in NAMES else "F_t"
         yield (
             f"${shown}$",
@@ -517,7 +556,7 @@ def _iterate_record_rows(path: str, record: Field) -> Iterator[tuple[str, ...]]:
             key = f"{path}.{field.name}"
             shown = symbols.get(field.name) or make_symbol_name(get_field_symbol(field.name)).latex
             paper = IN_PAPER.get(key, "")
-            meaning = IN_SECTION.get(key) or _set_formulas(field.meaning)
+            meaning = IN_SECTION.get(key) or get_markdown(field.meaning)
             yield (
                 f"${shown}$",
                 meaning,
@@ -536,20 +575,13 @@ def _iterate_law_rows() -> Iterator[tuple[str, ...]]:
             for field in law.parameters if law.role == role else ():
                 row = (
                     get_latex_symbol(field),
-                    _set_formulas(field.meaning),
+                    get_markdown(field.meaning),
                     f"contacts.NAME.{role}.{field.name}",
                     _format_unit(field),
                 )
                 merged.setdefault(row, []).append(f"`{law.name}`")
     for (symbol, meaning, key, unit), laws in merged.items():
         yield f"${symbol}$", meaning, ", ".join(laws), f"`{key}`", _format_c_member(key), unit
-
-
-def _set_formulas(meaning: str) -> str:
-    """Return the words of a declaration with its symbols as mathematics."""
-    for words, formula in FORMULAS.items():
-        meaning = meaning.replace(words, formula)
-    return meaning
 
 
 def _iterate_derived_rows() -> Iterator[tuple[str, ...]]:
@@ -565,9 +597,9 @@ def _format_c_member(key: str) -> str:
 
 
 def _format_unit(field: Field) -> str:
-    """Return the SI unit of a field as text; 1 for a pure number, N/m^n for a stiffness by its exponent."""
+    """Return the SI unit of a field as text; 1 for a pure number, N/m$^n$ for a stiffness by its exponent."""
     if field.dimension is None:
-        return "N/m^n" if field.per else NONE
+        return UNIT_OF_COEFFICIENT if field.per else NONE
     return format_unit(find_si_unit(field.dimension)) or "1"
 
 

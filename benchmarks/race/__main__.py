@@ -202,8 +202,7 @@ def main() -> None:
         sizes.shorten()
     before = race_record.read(race_page.CSV) if race_page.CSV.exists() else Record()
     record = race(options, max(before.runs(), default=0) + 1, before)
-    print("\nmeasured values; in brackets the ratio to the goal: 1 or more meets the goal\n")
-    print("\n".join(race_page.bars(record)))
+    print("\n".join(["", *race_page.setups(record), "", *race_page.bars(record)]))
     if options.write:
         race_page.main()
 

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.race.record import LEVELS, LEVELS_OF, MEASURES, ONSET_LEVELS, Record, read
+from benchmarks.race.record import ENERGY_LEVELS, LEVELS, LEVELS_OF, MEASURES, ONSET_LEVELS, Record, read, time_to
 
 FOLDER = Path(__file__).resolve().parents[1]
 CSV, FIGURES, PAGE = FOLDER / "race.csv", FOLDER / "figures", FOLDER.parent / "docs" / "race.md"
@@ -52,6 +53,7 @@ BARS = (
     Bar("ideal", "gudgeon kinematic", LEVELS, most=(2e-6, 2e-6, 2e-6)),
     Bar("andrews", DEFAULT, LEVELS[1:], "jitcode dop853", 3.0),
     Bar("andrews", DEFAULT, LEVELS[1:], "Exudyn gen.-alpha", 500.0),
+    Bar("long", DEFAULT, ENERGY_LEVELS, "heyoka", 1.0),
     Bar("sweep", f"{DEFAULT}, 1 thread", (1e-6,), most=(3e-3,)),
 )
 # comparisons at the head of the page: problem, its error, another solver
@@ -72,6 +74,8 @@ COMPARISONS = (
     ("sweep", "worst", "CVODE BDF from C, 1 thread"),
 )
 THREADS = 1.8  # the sweep: two threads over one, at least
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+BATCH_FACT = re.compile(r"(?P<measured>[\d.]+) s \(goal: at most (?P<most>[\d.]+) s\)")
 
 
 def number(x: float) -> str:
@@ -82,39 +86,72 @@ def number(x: float) -> str:
     return f"{rounded:,.0f}" if abs(rounded) >= 1000.0 else f"{x:#.3g}".rstrip(".")
 
 
-def grid(head: list[str], rows: list[list[str]]) -> list[str]:
-    """Return a Markdown table with columns of equal width."""
+def power(level: float) -> str:
+    """Return an error that is a power of ten, such as 10⁻⁶."""
+    return f"10{str(round(math.log10(level))).translate(SUPERSCRIPTS)}"
+
+
+def set_powers(text: str) -> str:
+    """Return a text with numbers such as 3e-12 as 3·10⁻¹²."""
+    return re.sub(r"(\d)e(-?)0*(\d+)", lambda x: f"{x[1]}·10{(x[2] + x[3]).translate(SUPERSCRIPTS)}", text)
+
+
+def grid(head: list[str], rows: list[list[str]], words: int = 1) -> list[str]:
+    """Return a Markdown table with columns of equal width; the first `words` columns are aligned left."""
     widths = [max(len(row[k]) for row in [head, *rows]) for k in range(len(head))]
-    line = ["---".ljust(w, "-") if k == 0 else "-" * (w - 1) + ":" for k, w in enumerate(widths)]
+    line = ["---".ljust(w, "-") if k < words else "-" * (w - 1) + ":" for k, w in enumerate(widths)]
     fitted = [
-        [cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths, strict=True))]
+        [cell.ljust(w) if k < words else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths, strict=True))]
         for row in [head, line, *rows]
     ]
     return [f"| {' | '.join(row)} |" for row in fitted]
 
 
+def levels_of(work: str, measure: str) -> tuple[float, ...]:
+    """Return the errors of the columns of a problem's table."""
+    return ONSET_LEVELS if measure == "onset" else LEVELS_OF.get(work, LEVELS)
+
+
+def is_reached(record: Record, work: str, measure: str, level: float) -> bool:
+    """Return whether the table of a problem has a column for an error: a solver reaches it."""
+    times = (record.time_to(work, name, measure, level) for name in record.entries(work))
+    return level in levels_of(work, measure) and any(map(math.isfinite, times))
+
+
 def bars(record: Record) -> list[str]:
-    """Return the table of goals and results; the ratio to the goal is 1 or more if the goal is met."""
+    """Return the table of goals and results, a row for each goal: problem, errors, goal, measured values, result."""
     rows = []
     for bar in (b for b in BARS if record.entries(b.work)):
         measure = bar.measure or MEASURES[bar.work][0]
         own = [record.time_to(bar.work, bar.own, measure, level) for level in bar.levels]
         if bar.peer:
             peer = [record.time_to(bar.work, bar.peer, measure, level) for level in bar.levels]
-            found = [b / a for a, b in zip(own, peer, strict=True)]
-            text, shares = f"{number(bar.least)} × {bar.peer}", [x / bar.least for x in found]
+            found, unit = [b / a for a, b in zip(own, peer, strict=True)], "times"
+            goal = f"at least {bar.least:g} times as fast as {bar.peer}".replace("1 times as", "as", bar.least == 1.0)
+            fractions = [x / bar.least for x in found]
         else:
             unit, scale = UNITS.get(bar.work, ("ms", 1e3))
-            found, shares = [x * scale for x in own], [m / x for m, x in zip(bar.most, own, strict=True)]
-            text = f"≤ {' / '.join(f'{m * scale:g}' for m in dict.fromkeys(bar.most))} {unit}"
-        at = {x: [number(f), number(s)] for x, f, s in zip(bar.levels, found, shares, strict=True)}
-        cells = [cell for level in LEVELS for cell in at.get(level, ["", ""])]
-        rows.append([" ".join(filter(None, (bar.work, bar.measure))), text, *cells])
+            found, fractions = [x * scale for x in own], [m / x for m, x in zip(bar.most, own, strict=True)]
+            goal = f"at most {', '.join(f'{m * scale:g}' for m in dict.fromkeys(bar.most))} {unit}"
+        errors = f"{measure}: {', '.join(map(power, bar.levels))}"
+        rows.append([f"`{bar.work}`", errors, goal, f"{', '.join(map(number, found))} {unit}", rate(fractions)])
     if record.entries("sweep"):
         one, two = (record.time_to("sweep", f"{DEFAULT}, {k}", "worst", 1e-6) for k in ("1 thread", "2 threads"))
-        cells = [number(one / two), number(one / two / THREADS)]
-        rows.append(["sweep", f"2 threads {THREADS} × one", "", "", *cells, "", ""])
-    return grid(["problem", "goal", *(f"{kind}{level:.0e}" for level in LEVELS for kind in ("at ", "ratio "))], rows)
+        goal, ratio = f"2 threads at least {THREADS} times as fast as one", one / two
+        rows.append(["`sweep`", f"worst: {power(1e-6)}", goal, f"{number(ratio)} times", rate([ratio / THREADS])])
+    for name, value in record.facts.items():
+        if name.startswith("sweep, ") and (fact := BATCH_FACT.fullmatch(value)):
+            goal = f"{name.removeprefix('sweep, ')}: at most {fact['most']} s"
+            result = rate([float(fact["most"]) / float(fact["measured"])])
+            rows.append(["`sweep`", "", goal, f"{fact['measured']} s", result])
+    return grid(["problem", "error", "goal", "measured", "result"], rows, words=5)
+
+
+def rate(fractions: list[float]) -> str:
+    """Return whether a goal is met: each measured value divided by the goal is 1 or more. A dash for missing values."""
+    if not all(map(math.isfinite, fractions)):
+        return "–"
+    return "met" if min(fractions) >= 1.0 else "missed"
 
 
 def find_default(record: Record, work: str) -> str:
@@ -124,51 +161,63 @@ def find_default(record: Record, work: str) -> str:
 
 
 def ratios(record: Record) -> list[str]:
-    """Return the table of COMPARISONS: engine times of other solvers divided by those of the default method.
+    """Return the table of COMPARISONS: times of other solvers divided by those of the default method.
 
     A cell is empty if the table of the problem lacks its error, and a dash if a solver does not reach the error.
     """
     rows = []
     for work, measure, peer in (c for c in COMPARISONS if c[2] in record.entries(c[0])):
         cells = []
-        for level in RATIO_LEVELS:
-            times = [record.time_to(work, name, measure, level) for name in (peer, find_default(record, work))]
-            cells.append(number(times[0] / times[1]) if level in LEVELS_OF.get(work, LEVELS) else "")
+        for call in (False, True):
+            for level in RATIO_LEVELS:
+                own = find_default(record, work)
+                times = [record.time_to(work, name, measure, level, call) for name in (peer, own)]
+                cells.append(number(times[0] / times[1]) if is_reached(record, work, measure, level) else "")
         rows.append([f"`{work}`", measure, peer, *cells])
-    return grid(["problem", "error", "solver", *(f"ratio at {level:.0e}" for level in RATIO_LEVELS)], rows)
+    return grid(["problem", "error", "solver", *_name_columns(map(power, RATIO_LEVELS))], rows, words=3)
+
+
+def _name_columns(errors: Iterable[str]) -> list[str]:
+    """Return the heads of the columns of engine times at some errors, then of call times."""
+    errors = list(errors)
+    return [f"{kind} {error}" for kind in ("engine", "call") for error in errors]
 
 
 def table(record: Record, work: str, measure: str) -> list[str]:
-    """Return the table of a problem: times of all entries to each error, engine alone and whole call side by side.
+    """Return the table of a problem: engine times of all entries to each error, then their call times.
 
-    Further columns are the ratios of both to the default method of gudgeon at the error in the middle, and the time of
-    set-up in s. Columns without values are left out.
+    Columns of errors that no entry reaches are left out.
     """
-    levels = ONSET_LEVELS if measure == "onset" else LEVELS_OF.get(work, LEVELS)
+    levels = [level for level in levels_of(work, measure) if is_reached(record, work, measure, level)]
     unit, scale = UNITS.get(work, ("ms", 1e3))
-    names = record.entries(work)
-    base = find_default(record, work)
-
-    def times(name: str) -> list[float]:
-        """Return engine and call to each error, then both ratios."""
-        found = [record.time_to(work, name, measure, level, call) for level in levels for call in (False, True)]
-        at = levels[len(levels) // 2]
-        for call in (False, True):
-            own = record.time_to(work, base, measure, at, call)
-            found.append(record.time_to(work, name, measure, at, call) / own)
-        return found
-
     rows = []
-    for name in names:
-        *cells, engine, call = times(name)
-        last = (engine, call, record.setup(work, name))
-        rows.append([name, *(number(t * scale) for t in cells), *map(number, last)])
-    at = [f"{level:.0e}{' s' if measure == 'onset' else ''}" for level in levels]
-    head = [f"{kind} {level}" for level in at for kind in ("engine", "call")]
-    middle = at[len(at) // 2]
-    head = [f"{measure}, {unit}", *head, f"relative engine {middle}", f"relative call {middle}", "set-up, s"]
-    columns = [k for k in range(len(head)) if k == 0 or any(row[k] != number(math.nan) for row in rows)]
-    return grid([head[k] for k in columns], [[row[k] for k in columns] for row in rows])
+    for name in record.entries(work):
+        times = [record.time_to(work, name, measure, level, call) for call in (False, True) for level in levels]
+        rows.append([name, *(number(t * scale) for t in times)])
+    errors = [f"{power(level)}{' s' if measure == 'onset' else ''}" for level in levels]
+    return grid([f"{measure}, {unit}", *_name_columns(errors)], rows)
+
+
+def evaluations(record: Record, work: str = "lubricated", measure: str = "path") -> list[str]:
+    """Return the table of right-hand sides that each entry of a problem needs to reach an error."""
+    rows = []
+    for name in record.entries(work):
+        points = [(row.errors[measure], float(row.right_hand_sides)) for row in record.of(work, name)]
+        counts = [time_to(points, level) for level in levels_of(work, measure)]
+        if min(n for _, n in points) >= 0.0:
+            rows.append([name, *map(number, counts)])
+    return grid([measure, *map(power, levels_of(work, measure))], rows)
+
+
+def setups(record: Record) -> list[str]:
+    """Return the table of set-up times: a row for each problem and each model, with the entries that share it."""
+    rows = []
+    for work in (w for w in MEASURES if record.entries(w)):
+        names_by_time: dict[str, list[str]] = {}
+        for name in record.entries(work):
+            names_by_time.setdefault(number(record.setup(work, name)), []).append(name)
+        rows += [[f"`{work}`", "; ".join(names), time] for time, names in names_by_time.items()]
+    return grid(["problem", "solvers", "set-up, s"], rows, words=2)
 
 
 def machine_facts(record: Record) -> list[str]:
@@ -191,14 +240,17 @@ def facts(record: Record, work: str = "") -> list[str]:
     if not work:
         return machine_facts(record)
     prefix = f"{work}, "
-    found = [f"- {name.removeprefix(prefix)}: {x}" for name, x in record.facts.items() if name.startswith(prefix)]
+    found = [
+        f"- {name.removeprefix(prefix)}: {set_powers(x)}" for name, x in record.facts.items() if name.startswith(prefix)
+    ]
     runs = record.runs(work)
     return [*found, f"- measured in run {', '.join(map(str, runs))}"] if len(record.runs()) > 1 and runs else found
 
 
 def blocks(record: Record) -> dict[str, str]:
     """Return the texts between the marks by name."""
-    found = {"machine": facts(record), "ratios": ratios(record), "bars": bars(record)}
+    found = {"machine": facts(record), "ratios": ratios(record), "bars": bars(record), "setups": setups(record)}
+    found["evaluations"] = evaluations(record)
     for work, measures in MEASURES.items():
         lines = facts(record, work)
         if not record.entries(work):

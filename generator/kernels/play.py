@@ -104,7 +104,7 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
 
 
 def describe_law(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
-    """Return the lines of a law's C comment: title, formulas, source, validity, options and their sources.
+    """Return the lines of a law's C comment: title, formulas, source, validity, properties, options and their sources.
 
     `names`: names of parameters in the formulas, by symbol; None: as in the law's file. Sources are those of options
     that differ from the default.
@@ -126,6 +126,7 @@ def describe_law(equations: LawEquations, names: Mapping[sp.Symbol, str] | None 
         *format_formulas(equations, names),
         f"Source: {law.source}.",
         f"Valid: {law.validity}.",
+        *([f"Properties: {law.properties}."] if law.properties else []),
         *([f"Options: {', '.join(options_text)}."] if options_text else []),
         *option_sources,
     ]

@@ -25,6 +25,7 @@ from gudgeon.generator.field import (
     Kind,
 )
 from gudgeon.generator.format.sections import MECHANISM_FILE
+from gudgeon.generator.marked_text import get_markdown
 from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.language.units import Dimension, find_si_unit
 
@@ -122,7 +123,7 @@ def _list_field_cells(field: Field) -> Row:
         _describe_values(field),
         _describe_default(field),
         describe_condition(field),
-        field.meaning,
+        get_markdown(field.meaning),
     )
 
 
@@ -133,9 +134,8 @@ def _describe_values(field: Field) -> str:
     """
     if field.kind == NUMBER:
         alternatives = "".join(f" or `{word}`" for word in field.words)
-        return f"number, {_describe_unit(field.dimension)}{alternatives}" + (
-            f"; of {field.varies}" if field.varies else ""
-        )
+        unit = f"N/m$^n$ with the number n of the key `{field.per}`" if field.per else _describe_unit(field.dimension)
+        return f"number, {unit}{alternatives}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind == VECTOR:
         return f"[x, y], {_describe_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind in (WORD, FLAG):

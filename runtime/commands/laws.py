@@ -135,6 +135,7 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
         "keys": [_build_key_document(field) for field in law.list_fields_of_name(name)],
         "states": {state.name: state.meaning for state in law.states},
         "validity": law.validity,
+        "properties": law.properties,
         "reference": law.reference or law.source,
     }
 

@@ -18,9 +18,11 @@ from gudgeon.commands.law_plot import make_law_figure
 from gudgeon.generator.field import NUMBER
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURCES
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws, find_laws_of_role
+from gudgeon.generator.marked_text import MarkedText, get_markdown
+from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, derive_forms, print_equation
-from gudgeon.generator.targets.latex.law_page import list_laws_of_role, print_laws_page
+from gudgeon.generator.targets.latex.law_page import list_laws_of_role, make_example, print_laws_page
 from gudgeon.generator.targets.latex.law_symbols import list_symbol_rows
 from gudgeon.generator.targets.latex.letters import make_name_from_latex
 from tests.equations.one_law import PAIR, Evaluator
@@ -239,6 +241,26 @@ def test_bristles_that_have_gone_far_slide() -> None:
 def test_what_cannot_be_drawn(line: str, message: str, call: Gudgeon) -> None:
     done = call("laws", *shlex.split(line))
     assert done.exit_code == 2 and message in done.stderr, done.output
+
+
+def test_the_examples_of_the_page_are_read() -> None:
+    """Friction needs a normal law, mixed lubrication also a film."""
+    others = {"normal": "normal: {law: hertz}", "film": "film: {law: ocvirk, viscosity: 1 cP}"}
+    needed = {"friction": ["normal"], "mixed": ["normal", "film"]}
+    contacts = ""
+    for law in find_bundled_laws().values():
+        lines = {role: others[role] for role in needed.get(law.role, ())} | {law.role: make_example(law)}
+        contacts += "".join([f"  {law.name}:\n", *(f"    {line}\n" for line in lines.values())])
+    text = (Path(__file__).resolve().parents[2] / "mechanisms" / "nine_bar_press.yaml").read_text("utf-8")
+    assert read_mechanism(text.replace("contacts:\n", f"contacts:\n{contacts}", 1).encode(), "press.yaml", None).scenes
+
+
+def test_marked_text_has_a_plain_form_in_ascii() -> None:
+    text = MarkedText(r"Gümbel, $\lvert\omega_s\rvert \gg \lvert\dot\varepsilon\rvert$, 1–2")
+    assert text == "Guembel, |omega_s| >> |d epsilon/dt|, 1-2" and "ü" in get_markdown(text)
+    assert get_markdown("plain") == "plain"
+    with pytest.raises(ValueError, match="no plain form"):
+        MarkedText("µ")
 
 
 def test_the_page_of_laws_is_current() -> None:

@@ -4,8 +4,7 @@
  * delta: penetration; ratio: deltadot/deltadot_minus.
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known, or a contact with the stiffness of spheres, at small
- * penetrations; where surfaces are driven apart fast, the formula pulls, and with pulls: false the force is then set to
- * 0.
+ * penetrations.
  * Options: dissipation: hunt_crossley, pulls: False.
  * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration; hysteresis: hysteresis
  * damping factor a.

@@ -3,8 +3,8 @@
  * F_n = K*delta^exponent*max(0, hysteresis*ratio + 1)
  * delta: penetration; ratio: deltadot/deltadot_minus.
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
- * Valid: values of c_e near 1: c_e = 0.9 delivers the restitution 0.91318; the stiffness is that of external spheres,
- * unless geometry is internal.
+ * Valid: values of c_e near 1: c_e = 0.9 delivers the restitution 0.91318.
+ * Properties: the stiffness is that of external spheres, unless `geometry` is `internal`.
  * Options: geometry: external.
  * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
@@ -25,7 +25,7 @@ static inline void lankarani_nikravesh(double delta, double ratio, double expone
  * F_t = -F_n*mu*(-max(0, min(1, friction_slope*(-v0 - v_t))) + max(0, min(1, friction_slope*(-v0 + v_t))))
  * F_n: normal force; v_t: slip velocity.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
- * Valid: sliding; below the slip v1 the contact creeps where Coulomb's law would stick.
+ * Valid: sliding; below the slip v_1 the contact creeps where Coulomb's law would stick.
  * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
 static inline void modified_coulomb(double F_n, double v_t, double mu, double v0, double friction_slope,

@@ -14,6 +14,7 @@ from typing import Any
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force, make_odd_function
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import VELOCITY
 
 
@@ -37,25 +38,29 @@ def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
 LAW = Law(
     name="bengisu_akay",
     role="friction",
-    title="Bengisu and Akay's friction: static friction at v0, then a decay to kinetic friction",
+    title=MarkedText("Bengisu and Akay's friction: static friction at $v_0$, then a decay to kinetic friction"),
     equation=(
         r"F_t = -c_d F_n\, \mathrm{sgn}(v_t)",
         r"c_d = c_s \left[1 - (|v_t|/v_0 - 1)^2\right], \quad |v_t| \le v_0",
         r"c_d = c_f + (c_s - c_f) \exp\left(-(|v_t| - v_0)/v_d\right), \quad |v_t| \ge v_0",
     ),
     source="M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557-570",
-    reference="M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "
-    "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "
-    "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
-    validity="sliding; below the slip v0 the contact creeps where Coulomb's law would stick; the sources write"
-    " 1/xi for the key `decay`",
+    reference=MarkedText(
+        "M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "
+        "Journal of Sound and Vibration 171 (1994) 557–570, as in E. Pennestrì et al., Nonlinear Dynamics 83 "
+        "(2016) 1785–1801, doi 10.1007/s11071-015-2485-3"
+    ),
+    validity=MarkedText("sliding; below the slip $v_0$ the contact creeps where Coulomb's law would stick"),
+    properties=MarkedText(r"the sources write $1/\xi$ for the key `decay`"),
     fields=(
         MU,
         MU_S,
         declare_slip_field("v0", "slip at which friction is largest", "v_0"),
         number(
             "decay",
-            "additional slip beyond v0 at which the excess over kinetic friction has fallen to 1/e",
+            MarkedText(
+                r"additional slip beyond $v_0$ at which the excess over kinetic friction has fallen to $1/\mathrm{e}$"
+            ),
             VELOCITY,
             symbol="v_d",
             required=True,

@@ -11,6 +11,7 @@ from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
@@ -38,7 +39,7 @@ LAW = Law(
     reference="P. Brown, J. McPhee, A continuous velocity-based friction model for dynamics and control with "
     "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "
     "doi 10.1115/1.4033658, without its viscous part",
-    validity="sliding; the contact creeps at slips below v0, the slip at which friction is largest",
-    fields=(MU, MU_S, declare_slip_field("v0", "slip at which friction is largest", "v_0")),
+    validity=MarkedText("sliding; the contact creeps at slips below $v_0$, near which friction is largest"),
+    fields=(MU, MU_S, declare_slip_field("v0", "slip near which friction is largest", "v_0")),
     build=build_friction_force,
 )

@@ -145,6 +145,7 @@ def compute_law_key(law: Law) -> str:
         law.title,
         law.source,
         law.validity,
+        law.properties,
         law.fields,
         law.states,
         law.also,

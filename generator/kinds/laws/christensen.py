@@ -16,10 +16,11 @@ from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_christensen_fraction(inputs: LawInputs) -> dict[str, Any]:
-    """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
+    """Return the equations, by name, that lead to `share`, the weight of the dry force.
 
     It is a polynomial of degree 7 in the overlap of the roughness, from −3 to +3 standard deviations, and rises from 0
     to 1 with the penetration δ > 0.
@@ -34,7 +35,7 @@ def build_christensen_fraction(inputs: LawInputs) -> dict[str, Any]:
 LAW = Law(
     name="christensen",
     role="mixed",
-    title="Christensen: film and contact share the area, by the film thickness ratio",
+    title="Christensen: weight of the dry force by the area in contact",
     equation=(
         r"F = b F_\mathrm{dry} + (1 - b) F_\mathrm{film}",
         r"b = \int_\Lambda^3 \frac{35}{96} \left[1 - \left(\frac{\eta}{3}\right)^2\right]^3 d\eta, \quad \Lambda"
@@ -44,11 +45,12 @@ LAW = Law(
     reference="H. Christensen, Stochastic models for hydrodynamic lubrication of rough surfaces, Proceedings of the "
     "Institution of Mechanical Engineers 184 (1969) 1013-1026; H. Christensen, A theory of mixed "
     "lubrication, the same 186 (1972) 421-430",
-    validity="heights of the roughness with a nearly normal distribution, uniform over both surfaces; sigma is"
-    " the combined roughness; the film acts alone where it is thicker than 3 sigma, and the dry "
-    "contact acts alone below -3 sigma; the clearance c is measured between the tips of the "
-    "asperities, and the film has the clearance c + 3 sigma; the fraction b of the dry contact is three "
-    "times differentiable",
+    validity="heights of the roughness with a nearly normal distribution, uniform over both surfaces",
+    properties=MarkedText(
+        r"the film acts alone where it is thicker than $3 \sigma_r$, and the dry contact acts alone below $-3 \sigma_r$"
+        r"; the clearance $c$ is measured between the tips of the asperities, and the film has the clearance "
+        r"$c + 3 \sigma_r$; the weight $b$ is the fraction of the area in contact, and is three times differentiable"
+    ),
     fields=(ROUGHNESS,),
     build=build_christensen_fraction,
 )

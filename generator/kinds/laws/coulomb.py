@@ -11,6 +11,7 @@ from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_friction_force
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
@@ -28,10 +29,17 @@ LAW = Law(
     title="Coulomb's friction, smoothed by a hyperbolic tangent",
     equation=(r"F_t = -c_f F_n \tanh\frac{v_t}{v_0}",),
     source="C. A. Coulomb (1785); smoothed as in E. Pennestri et al., Nonlinear Dynamics 83 (2016) 1785-1801",
-    reference="C. A. Coulomb (1785), smoothed as in E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Review and "
-    "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "
-    "doi 10.1007/s11071-015-2485-3",
-    validity="sliding; below the slip v0 the contact creeps where Coulomb's law without smoothing would stick",
-    fields=(MU, declare_slip_field("v0", "slip at which friction is tanh 1 = 0.76 of its largest value", "v_0")),
+    reference=MarkedText(
+        "C. A. Coulomb (1785), smoothed as in E. Pennestrì, V. Rossi, P. Salvini, P. P. Valentini, Review and "
+        "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785–1801, "
+        "doi 10.1007/s11071-015-2485-3"
+    ),
+    validity=MarkedText(
+        "sliding; below the slip $v_0$ the contact creeps where Coulomb's law without smoothing would stick"
+    ),
+    fields=(
+        MU,
+        declare_slip_field("v0", MarkedText(r"slip at which friction is $\tanh 1 = 0.76$ of its largest value"), "v_0"),
+    ),
     build=build_friction_force,
 )

@@ -42,7 +42,8 @@ LAW = Law(
     ),
     source="P. R. Dahl (1968), exponent 1; dependence on the load as in C. Canudas de Wit, P. Tsiotras (1999)",
     reference="P. R. Dahl, A solid friction model, report TOR-0158(3107-18)-1, Aerospace Corporation (1968), exponent "
-    "1; dependence on the load as in C. Canudas de Wit, P. Tsiotras (1999)",
+    "1; dependence on the load as in C. Canudas de Wit, P. Tsiotras, Proc. 38th IEEE Conf. Decision and Control "
+    "(1999) 3746-3751",
     validity="presliding and sliding; the law has no difference between static and kinetic friction",
     fields=(
         MU,

@@ -12,6 +12,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, flag, number, word
 from gudgeon.generator.kinds.laws.law import LawInputs
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import DIMENSIONLESS
 
 # name -> a(c_e)
@@ -56,10 +57,10 @@ SOURCES: Mapping[str, str] = {
     "System Dynamics 35 (2015) 131-151, doi 10.1007/s11044-015-9453-z",
     "exact": "a (1 + c_e) = ln[(1 + a)/(1 - a c_e)], solved for a: the identity of the delivered restitution",
 }
-# clauses of `validity` for laws whose force is limited to pushing: everywhere, and where surfaces separate
-NO_PULL = "the formula pulls, and with pulls: false the force is then set to 0"
-SEPARATION = f"where surfaces are driven apart fast, {NO_PULL}"
-PULLS = flag("pulls", "apply the formula without max(0, ...): the force then pulls where the surfaces separate fast")
+PULLS = flag(
+    "pulls",
+    MarkedText(r"apply the formula without $\max(0, \dots)$: the force then pulls where the surfaces separate fast"),
+)
 EXACT = "exact"  # delivers the restitution that it is given
 RESTITUTION = number(
     "restitution",
@@ -71,7 +72,7 @@ RESTITUTION = number(
 )
 DISSIPATION = word(
     "dissipation",
-    "author of the hysteresis damping factor a; none is a = 0, exact delivers c_e",
+    MarkedText("author of the hysteresis damping factor $a$; `none` is $a = 0$, `exact` delivers $c_e$"),
     (*FACTORS, EXACT),
     "hunt_crossley",
     SOURCES,

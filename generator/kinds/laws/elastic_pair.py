@@ -24,12 +24,14 @@ from typing import Any
 from gudgeon.generator.field import Field, word
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
 from gudgeon.generator.kinds.laws.law import MAX_PENETRATION, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 
 GEOMETRY = word(
     "geometry",
-    "curvature of the pair: external, R_i + R_j, as Chen, Gao and Wang (2022) print it for the press; internal, "
-    "R_i - R_j, for a pin in a hole. For steel with radii of 10 and 9.5 mm, external gives 1.06e10 N/m^1.5 and "
-    "internal 6.61e10; the literature on such slider-cranks prints 6.61e10",
+    MarkedText(
+        "curvature of the pair: external, $R_i + R_j$, as Chen, Gao and Wang (2022) print it for the press; internal, "
+        "$R_i - R_j$, for a pin in a hole"
+    ),
     ("external", "internal"),
     "external",
 )

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.dissipation import SEPARATION
 from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, make_cylinder_force
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
@@ -38,12 +38,16 @@ LAW = Law(
         r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
     ),
     source="ESDU 78035 (1978), as in Pereira et al. (2011)",
-    reference="ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded "
-    "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "
-    "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
-    "10.1007/s11071-010-9830-3",
-    validity="a contact that is narrow compared with the radii; the equation for F_el has no solution for a "
-    f"penetration above 4 clearances, and a run stops at 3.7 clearances; {SEPARATION}",
+    reference=MarkedText(
+        "ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded "
+        "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrósio, A critical overview "
+        "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681–697, doi "
+        "10.1007/s11071-010-9830-3"
+    ),
+    validity=MarkedText(
+        r"a contact that is narrow compared with the radii; the equation for $F_{\text{el}}$ has no solution for a "
+        "penetration above 4 clearances, and a run stops at 3.7 clearances"
+    ),
     fields=CYLINDER_FIELDS,
     build=build_normal_force,
     in_hole=True,

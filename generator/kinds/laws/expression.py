@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import OF_PENETRATION, Bound, number
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, SEPARATION, make_hysteresis_factor
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
 from gudgeon.generator.kinds.laws.law import MAX_PENETRATION, SECANT_DEPTH, Law, LawInputs
 from gudgeon.language.units import FORCE, LENGTH
 
@@ -48,12 +48,13 @@ LAW = Law(
     "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
     validity="penetrations for which the user knows the elastic force; the elastic force must be 0 at zero "
     "penetration, which every run checks with its parameter values; the elastic force must not be "
-    "negative up to the clearance, or up to `deepest` where the file gives it; gudgeon checks the sign with the "
-    f"parameter values of the file and of its scenes when it loads the file; {SEPARATION}",
+    "negative up to the clearance, or up to `deepest` where the file gives it",
+    properties="at loading, gudgeon checks the sign of the force with the parameter values of the file and of its "
+    "scenes",
     fields=(
         number(
             "force",
-            "elastic force, an expression of the penetration delta, of parameters and of curves",
+            "elastic force, an expression of the penetration `delta`, of parameters and of curves",
             FORCE,
             symbol=r"f_{\delta}",
             required=True,

@@ -26,7 +26,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.roles import OIL_FIELDS, TINY, make_film_clearance, make_shear_torque
+from gudgeon.generator.kinds.laws.roles import (
+    LARGE_ECCENTRICITY,
+    OIL_FIELDS,
+    TINY,
+    make_film_clearance,
+    make_shear_torque,
+)
+from gudgeon.generator.marked_text import MarkedText
 
 # g = n0 + s (n1/(Λ + n2 s) + n3 + n4 s + n5 Λ s); n0 is the narrow gap's, which is long whatever Λ
 G0 = (0.4585, 2.3287, 2.7330, -0.3790, -0.4570, 0.0685)
@@ -95,10 +102,12 @@ LAW = Law(
     reference="A potential of four terms, fitted to Reynolds' equation (p above 0, open ends); the impedance of short, "
     "long and finite bearings is that of D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99 "
     "(1977) 198--214",
-    validity="for L/D from 0.1 to 2 and epsilon up to 0.95, the force deviates from Reynolds' equation by at "
-    "most 1.2 % of the largest force at that epsilon; in steady rotation it deviates by at most 2 % "
-    "of the force itself; up to L/D = 3 and epsilon = 0.9985 these limits are 3 % and 4 %; above "
-    "epsilon = 0.9999 the force is evaluated at 0.9999",
+    validity=MarkedText(
+        r"for $L/(2R_j)$ from 0.1 to 2 and $\varepsilon$ up to 0.95, the force deviates from Reynolds' equation by at "
+        r"most 1.2 % of the largest force at that $\varepsilon$; in steady rotation it deviates by at most 2 % "
+        r"of the force itself; up to $L/(2R_j)$ = 3 and $\varepsilon$ = 0.9985 these limits are 3 % and 4 %"
+    ),
+    properties=LARGE_ECCENTRICITY,
     limits=Limits(l_over_d=(0.1, 2.0), epsilon=0.95),
     fields=OIL_FIELDS,
     build=build_film_forces,

@@ -16,12 +16,13 @@ from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
+from gudgeon.generator.marked_text import MarkedText
 
 POWER = 6.804
 
 
 def build_greenwood_tripp_fraction(inputs: LawInputs) -> dict[str, Any]:
-    """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
+    """Return the equations, by name, that lead to `share`, the weight of the dry force.
 
     It is a power, with the exponent POWER, of the overlap of the roughness, from 4 to 0 standard deviations. It rises
     from 0 to 1 with the penetration δ > 0.
@@ -35,7 +36,7 @@ def build_greenwood_tripp_fraction(inputs: LawInputs) -> dict[str, Any]:
 LAW = Law(
     name="greenwood_tripp",
     role="mixed",
-    title="Greenwood and Tripp: the asperities' share of the load, by the film thickness ratio",
+    title="Greenwood and Tripp: weight of the dry force by the load of the asperities",
     equation=(
         r"F = b F_\mathrm{dry} + (1 - b) F_\mathrm{film}",
         r"b = \frac{F_{5/2}(\Lambda)}{F_{5/2}(0)} \approx \left(\frac{\delta}{4 \sigma_r}\right)^{6.804},"
@@ -48,10 +49,13 @@ LAW = Law(
     "Effect of surface roughness orientation on the central film thickness in EHD contacts, Proceedings of "
     "the 5th Leeds-Lyon Symposium (1978) 15-21; K. L. Johnson, J. A. Greenwood, S. Y. Poon, A simple theory "
     "of asperity contact in elastohydrodynamic lubrication, Wear 19 (1972) 91-108",
-    validity="heights of the roughness with a normal distribution; sigma is the combined roughness; the film "
-    "acts alone where it is thicker than 4 sigma, and the dry contact acts alone where the mean "
-    "surfaces meet; the clearance c is measured between the tips of the asperities, and the film has "
-    "the clearance c + 4 sigma; the approximation of b deviates by at most 0.014",
+    validity="heights of the roughness with a normal distribution",
+    properties=MarkedText(
+        r"the film acts alone where it is thicker than $4 \sigma_r$, and the dry contact acts alone where the mean "
+        r"surfaces meet; the clearance $c$ is measured between the tips of the asperities, and the film has the "
+        r"clearance $c + 4 \sigma_r$; the weight $b$ is the load of the asperities divided by their load where the "
+        r"mean surfaces meet; the approximation of $b$ deviates by at most 0.014"
+    ),
     fields=(ROUGHNESS,),
     build=build_greenwood_tripp_fraction,
 )

@@ -17,11 +17,11 @@ from gudgeon.generator.kinds.laws.dissipation import (
     FACTORS,
     PULLS,
     RESTITUTION,
-    SEPARATION,
     make_normal_force,
 )
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, make_pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -45,14 +45,16 @@ LAW = Law(
         r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
     ),
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
-    reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
-    "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",
+    reference=MarkedText(
+        "H. Hertz, Über die Berührung fester elastischer Körper, Journal für die reine und angewandte "
+        "Mathematik 92 (1882) 156–171, doi 10.1515/crll.1882.92.156"
+    ),
     validity="a point or a line contact whose stiffness is known, or a contact with the stiffness of spheres, "
-    f"at small penetrations; {SEPARATION}",
+    "at small penetrations",
     fields=(
         number(
             "stiffness",
-            "force at unit penetration, N/m^n",
+            MarkedText("force at unit penetration", plain="force at unit penetration, N/m^n"),
             None,
             symbol="K",
             bounds=(Bound(">", 0.0),),

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.dissipation import SEPARATION
 from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, make_cylinder_force
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
@@ -37,11 +37,15 @@ LAW = Law(
         r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
     ),
     source="K. L. Johnson, Contact mechanics (1985), section 5.6, as in Pereira et al. (2011)",
-    reference="K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form in "
-    "C. Pereira, A. Ramalho, J. Ambrosio, A critical overview of internal and external cylinder contact force "
-    "models, Nonlinear Dynamics 63 (2011) 681-697, doi 10.1007/s11071-010-9830-3",
-    validity="a contact that is narrow compared with the radii; the equation for F_el has no solution for a "
-    f"penetration above 0.541 clearances, and a run stops at 0.5 clearances; {SEPARATION}",
+    reference=MarkedText(
+        "K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form in "
+        "C. Pereira, A. Ramalho, J. Ambrósio, A critical overview of internal and external cylinder contact force "
+        "models, Nonlinear Dynamics 63 (2011) 681–697, doi 10.1007/s11071-010-9830-3"
+    ),
+    validity=MarkedText(
+        r"a contact that is narrow compared with the radii; the equation for $F_{\text{el}}$ has no solution for a "
+        "penetration above 0.541 clearances, and a run stops at 0.5 clearances"
+    ),
     fields=CYLINDER_FIELDS,
     build=build_normal_force,
     in_hole=True,

@@ -16,8 +16,9 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.dissipation import NO_PULL, PULLS
+from gudgeon.generator.kinds.laws.dissipation import PULLS
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import DAMPING, STIFFNESS
 
 
@@ -40,11 +41,14 @@ LAW = Law(
     title="Kelvin and Voigt: a linear spring and a damper side by side",
     equation=(r"F_n = \max(0, K \delta + D \dot\delta)",),
     source="W. Goldsmith, Impact (1960); T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469",
-    reference="W. Goldsmith, Impact: the theory and physical behaviour of colliding solids, Edward Arnold, London "
-    "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "
-    "Granular Matter 9 (2007) 465-469",
-    validity="the law has the same restitution at any speed; the force begins with the damping times the "
-    f"approach speed; near the end of each contact {NO_PULL}",
+    reference=MarkedText(
+        "W. Goldsmith, Impact: the theory and physical behaviour of colliding solids, Edward Arnold, London "
+        "(1960); T. Schwager, T. Pöschel, Coefficient of restitution and linear-dashpot model revisited, "
+        "Granular Matter 9 (2007) 465–469"
+    ),
+    validity="the law has the same restitution at any speed",
+    properties="the force begins with the damping times the approach speed; near the end of each contact the formula "
+    "gives a negative force, which `pulls: false` sets to 0",
     fields=(
         number(
             "stiffness",

@@ -13,6 +13,7 @@ from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.dissipation import SOURCES, make_normal_force
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, make_pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -32,8 +33,8 @@ LAW = Law(
     ),
     source="H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376",
     reference=SOURCES["lankarani_nikravesh"],
-    validity="values of c_e near 1: c_e = 0.9 delivers the restitution 0.91318; the stiffness is that of "
-    "external spheres, unless geometry is internal",
+    validity=MarkedText("values of $c_e$ near 1: $c_e$ = 0.9 delivers the restitution 0.91318"),
+    properties="the stiffness is that of external spheres, unless `geometry` is `internal`",
     fields=(
         number(
             "restitution",

@@ -110,7 +110,7 @@ class Law:
     role: str  # "normal", "friction", "film" or "mixed": the key under a contact in the YAML
     title: str
     source: str
-    validity: str
+    validity: str  # limits of its use, clauses with "; " between them
     fields: tuple[Field, ...]  # the keys in addition to `law`
     build: Callable[..., Any]
     states: tuple[State, ...] = ()
@@ -121,6 +121,7 @@ class Law:
     equation: tuple[str, ...] = ()  # LaTeX, a line each: the law as its source writes it, for docs/laws.md
     reference: str = ""  # the verified source: author, title, journal, year, doi
     limits: Limits = Limits()  # of a film
+    properties: str = ""  # what the law does, clauses with "; " between them
     in_hole: bool = False  # only for a pin in a hole: the law reads the radial clearance or the length of the pin
     rigid: bool = False  # rigid surfaces: impacts, and contacts that are constraints (engine/run/impacts.c)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, SEPARATION, make_hysteresis_factor
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
 from gudgeon.generator.kinds.laws.elastic_pair import make_contact_modulus
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
@@ -45,7 +45,7 @@ LAW = Law(
     source="C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183-197",
     reference="C. S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with "
     "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",
-    validity=f"a pin in a hole with parallel axes, and penetrations up to some clearances; {SEPARATION}",
+    validity="a pin in a hole with parallel axes, and penetrations up to some clearances",
     fields=(
         RESTITUTION,
         DISSIPATION,

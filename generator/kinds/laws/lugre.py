@@ -17,7 +17,8 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import BREAKAWAY, Law, LawInputs, State
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force
+from gudgeon.generator.kinds.laws.roles import EXCESS_DECAY, MU, MU_S, declare_slip_field, make_friction_force
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import make_dimension
 
 
@@ -53,11 +54,16 @@ LAW = Law(
     ),
     source="C. Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425; load as in C. Canudas de Wit, "
     "P. Tsiotras (1999)",
-    reference="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with "
-    "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; dependence on the "
-    "load as in C. Canudas de Wit, P. Tsiotras (1999)",
-    validity="presliding and sliding; the friction force only dissipates energy where sigma_1 <= 4 g_v/|v_t|, "
-    "for which sigma_1 <= 4 c_f/|v_t| is sufficient",
+    reference=MarkedText(
+        "C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, A new model for control of systems with "
+        "friction, IEEE Transactions on Automatic Control 40 (1995) 419–425, doi 10.1109/9.376053; dependence on the "
+        "load as in C. Canudas de Wit, P. Tsiotras, Proc. 38th IEEE Conf. Decision and Control (1999) 3746–3751"
+    ),
+    validity=MarkedText(
+        r"presliding and sliding; the friction is passive at constant $F_n$ where $\sigma_1 \le 4 g_v/\lvert v_t\rvert$"
+        r", for which $\sigma_1 \le 4 c_f/\lvert v_t\rvert$ is sufficient"
+    ),
+    properties="passive friction returns at most the energy that the bristles have stored",
     fields=(
         number(
             "mu",
@@ -68,7 +74,7 @@ LAW = Law(
             bounds=(Bound(">", 0.0),),
         ),
         MU_S,
-        declare_slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
+        declare_slip_field("v_s", EXCESS_DECAY, "v_s"),
         number(
             "stiffness",
             "stiffness of the bristles divided by the normal force",

@@ -16,6 +16,7 @@ from typing import Any
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import MU
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import VELOCITY
 
 
@@ -47,8 +48,10 @@ LAW = Law(
         r"c_d = c_f \min\left[1, \max\left(0, \frac{|v_t| - v_0}{v_1 - v_0}\right)\right]",
     ),
     source="physics.md section 3, after J. A. C. Ambrosio",
-    reference="J. A. C. Ambrosio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4",
-    validity="sliding; below the slip v1 the contact creeps where Coulomb's law would stick",
+    reference=MarkedText(
+        "J. A. C. Ambrósio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics (2022), doi 10.1007/s11071-022-07478-4"
+    ),
+    validity=MarkedText("sliding; below the slip $v_1$ the contact creeps where Coulomb's law would stick"),
     fields=(
         MU,
         number(

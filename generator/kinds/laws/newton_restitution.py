@@ -26,6 +26,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import DIMENSIONLESS, VELOCITY
 
 
@@ -49,10 +50,12 @@ LAW = Law(
     "Wiley (1996); friction in an impact: A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law "
     "based on impulse space considerations, Journal of Applied Mechanics 65 (1998) 939-951, "
     "doi 10.1115/1.2791938",
-    validity="impacts that are far shorter than all other motion; an impact separates the surfaces with c_e "
-    "times their approach speed, and no force during the impact is computed; a closed contact is a "
-    "constraint that only pushes; in an impact, friction reduces the slip, at most to zero, by an "
-    "impulse of at most mu times the normal impulse; an impact never adds energy",
+    validity="impacts that are far shorter than all other motion",
+    properties=MarkedText(
+        "an impact separates the surfaces with $c_e$ times their approach speed, and no force during the impact is "
+        "computed; a closed contact is a constraint that only pushes; in an impact, friction reduces the slip, at most "
+        "to zero, by an impulse of at most `mu` times the normal impulse; an impact never adds energy"
+    ),
     fields=(
         number(
             "restitution",
@@ -64,7 +67,7 @@ LAW = Law(
         ),
         number(
             "threshold",
-            "separation speed below which a contact closes",
+            "separation speed up to which a contact closes",
             VELOCITY,
             symbol=r"v_{\mathrm{th}}",
             default=1e-4,

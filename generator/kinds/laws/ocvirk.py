@@ -22,7 +22,15 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, make_film_clearance, make_shear_torque
+from gudgeon.generator.kinds.laws.roles import (
+    CAVITATION,
+    LARGE_ECCENTRICITY,
+    OIL_FIELDS,
+    TINY,
+    make_film_clearance,
+    make_shear_torque,
+)
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
@@ -68,7 +76,7 @@ def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
 LAW = Law(
     name="ocvirk",
     role="film",
-    title="Ocvirk: short journal bearing, half film, with squeeze",
+    title="Ocvirk: short journal bearing, half film or full film, with squeeze",
     equation=(
         r"\begin{pmatrix} F_r \\ F_t \end{pmatrix} = S \int_{\varphi_1}^{\varphi_1"
         r" + \pi} \frac{\frac{1}{2} \omega_s \varepsilon \sin\varphi - \dot\varepsilon \cos\varphi}{(1"
@@ -79,8 +87,11 @@ LAW = Law(
     source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
     "with squeeze: the half film lies where the pressure is above that of the ends",
-    validity="short bearing (L/D < 1/2); at L/D = 1 the law overestimates the load, by a factor of 2 and more "
-    "at large epsilon; above epsilon = 0.9999 the force is evaluated at 0.9999",
+    validity=MarkedText(
+        r"a short bearing ($L/(2R_j) < 1/2$); at $L/(2R_j)$ = 1 the law overestimates the load, by a factor of 2 and "
+        r"more at large $\varepsilon$"
+    ),
+    properties=LARGE_ECCENTRICITY,
     limits=Limits(l_over_d=(0.0, 0.5)),
     fields=(*OIL_FIELDS, CAVITATION),
     build=build_film_forces,

@@ -19,12 +19,14 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
 from gudgeon.generator.kinds.laws.roles import (
     ANGULAR_VELOCITY,
     EXTRA_CLEARANCE,
+    LARGE_ECCENTRICITY,
     SHEAR,
     TINY,
     VISCOUS,
     make_film_clearance,
     make_shear_torque,
 )
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
@@ -69,8 +71,11 @@ LAW = Law(
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
     reference="O. Pinkus, B. Sternlicht, Theory of hydrodynamic lubrication, McGraw-Hill, New York (1961), sign "
     "corrected",
-    validity="long bearing (L/D >> 1); the law agrees with Guembel's half film where |omega_s| >> |d "
-    "epsilon/dt|; above epsilon = 0.9999 the force is evaluated at 0.9999",
+    validity=MarkedText(
+        r"a long bearing ($L/(2R_j) \gg 1$); the law agrees with Gümbel's half film where "
+        r"$\lvert\omega_s\rvert \gg \lvert\dot\varepsilon\rvert$"
+    ),
+    properties=LARGE_ECCENTRICITY,
     limits=Limits(l_over_d=(4.0, math.inf), slow_squeeze=True),  # at L/D = 4 it is off by 16 % in rotation
     fields=(
         VISCOUS,

@@ -170,7 +170,7 @@ def _check_law_declaration(law: Law, origin: Origin) -> None:
 
     A registered law of the same name and origin may be replaced.
     """
-    for name in ("name", "title", "source", "validity"):
+    for name in ("name", "title", "source", "validity", "properties"):
         _require_condition(isinstance(getattr(law, name), str), f"its {name} is not a text")
     check_law_name(law.name, "law")
     for law_name in (law.name, *law.also):

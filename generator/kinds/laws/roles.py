@@ -14,6 +14,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, Field, flag, number, word
 from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE, LawInputs
+from gudgeon.generator.marked_text import MarkedText
 from gudgeon.language.units import DIMENSIONLESS, LENGTH, VELOCITY, VISCOSITY
 
 MU = number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),))
@@ -25,6 +26,9 @@ MU_S = number(
     required=True,
     bounds=(Bound(">=", "mu"),),
 )
+
+# Meaning of a characteristic slip of static friction.
+EXCESS_DECAY = MarkedText(r"slip at which the excess over kinetic friction has fallen to $1/\mathrm{e}$")
 
 
 def declare_slip_field(name: str, meaning: str, symbol: str) -> Field:
@@ -54,7 +58,7 @@ TINY = 1e-150
 VISCOUS = number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),))
 EXTRA_CLEARANCE = number(
     "extra_clearance",
-    "added to c, in the film law only",
+    "added to the radial clearance, in the film law only",
     LENGTH,
     symbol="c_a",
     default=0.0,
@@ -63,17 +67,23 @@ EXTRA_CLEARANCE = number(
 SHEAR = flag("shear", "with the shear torque; the film force then acts at the centre of each pin and hole")
 ANGULAR_VELOCITY = word(
     "angular_velocity",
-    "rotation in omega_s: absolute is omega_i + omega_j; relative is omega_j - omega_i of Chen, Gao and Wang (2022),"
-    " which depends on the observer",
+    MarkedText(
+        r"rotation in $\omega_s$: absolute is $\omega_i + \omega_j$; relative is $\omega_j - \omega_i$ of Chen, Gao and"
+        " Wang (2022), which depends on the observer"
+    ),
     ("absolute", "relative"),
     "absolute",
 )
 CAVITATION = word(
     "cavitation",
-    "half: Guembel's condition, no pressure below that of the ends; full: Sommerfeld's, negative pressures pull",
+    MarkedText(
+        "half: Gümbel's condition, no pressure below that of the ends; full: Sommerfeld's, negative pressures pull"
+    ),
     ("half", "full"),
     "half",
 )
+# A property of all films.
+LARGE_ECCENTRICITY = MarkedText(r"above $\varepsilon$ = 0.9999 the force is evaluated at 0.9999")
 OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCITY)
 
 

@@ -11,7 +11,8 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, make_friction_force
+from gudgeon.generator.kinds.laws.roles import EXCESS_DECAY, MU, MU_S, declare_slip_field, make_friction_force
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
@@ -35,12 +36,12 @@ LAW = Law(
     reference="R. Stribeck, Zeitschrift des Vereines deutscher Ingenieure 46 (1902); L. C. Bo, D. Pavelescu, The "
     "friction-speed relation and its influence on the critical velocity of stick-slip motion, Wear 82 (1982) "
     "277-289, exponent 2",
-    validity="sliding; the contact creeps at slips below v0, which must be well below v_s",
+    validity=MarkedText("sliding; the contact creeps at slips below $v_0$, which must be well below $v_s$"),
     fields=(
         MU,
         MU_S,
-        declare_slip_field("v_s", "slip at which the excess over kinetic friction has fallen to 1/e", "v_s"),
-        declare_slip_field("v0", "slip at which the factor tanh(v_t/v0) is 0.76", "v_0"),
+        declare_slip_field("v_s", EXCESS_DECAY, "v_s"),
+        declare_slip_field("v0", MarkedText(r"slip at which the factor $\tanh(v_t/v_0)$ is 0.76"), "v_0"),
     ),
     build=build_friction_force,
 )

@@ -12,6 +12,7 @@ from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_friction_force, make_odd_function
+from gudgeon.generator.marked_text import MarkedText
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
@@ -32,11 +33,13 @@ LAW = Law(
     title="Threlfall's friction: an exponential rise with the slip",
     equation=(r"F_t = -c_f F_n \left[1 - \exp\left(-\frac{3 \min(|v_t|, v_r)}{v_r}\right)\right] \mathrm{sgn}(v_t)",),
     source="A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475-483",
-    reference="A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
-    "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "
-    "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
-    validity="sliding; below the slip v_r the contact creeps where Coulomb's law would stick; the largest "
-    "coefficient of friction is 0.9502 mu",
+    reference=MarkedText(
+        "A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
+        "DRAM, Mechanism and Machine Theory 13 (1978) 475–483, as in E. Pennestrì et al., Nonlinear Dynamics 83 "
+        "(2016) 1785–1801, doi 10.1007/s11071-015-2485-3"
+    ),
+    validity=MarkedText("sliding; below the slip $v_r$ the contact creeps where Coulomb's law would stick"),
+    properties=MarkedText("the largest coefficient of friction is 0.9502 $c_f$"),
     fields=(MU, declare_slip_field("v_r", "slip above which friction no longer rises", "v_r")),
     build=build_friction_force,
 )

@@ -63,7 +63,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
     "w_t": ("effective squeeze velocity along t divided by the clearance", "1/s"),
     "F_r": ("force on the journal along n, from the bearing's centre to the journal's", "N"),
     "F_t": ("force on the journal along t, n turned by +90°", "N"),
-    "share": ("fraction of the dry contact in force and moments; the film has the rest", "-"),
+    "share": ("weight of the dry contact in force and moments; the film has the rest to 1", "-"),
     "T0": ("shear torque divided by the difference of the angular velocities", "N·m·s"),
     "R_i": ("radius of the bearing", "m"),
     "R_j": ("radius of the journal", "m"),
@@ -167,6 +167,7 @@ def _make_document(law: Law, name: str) -> Document:
         ),
         "Options": [_describe_option(field) for field in fields if field.kind != NUMBER],
         "Validity": [make_paragraph(make_sentence(law.validity))],
+        "Properties": [make_paragraph(make_sentence(law.properties))] if law.properties else [],
         "Reference": _describe_references(law, name),
     }
     sections = {title: tuple(section_blocks) for title, section_blocks in blocks.items()}

@@ -1,4 +1,4 @@
-"""Writes the table of docs/laws.md that helps to choose a force law: geometry, use and limit of each law."""
+"""Writes the tables of docs/laws.md that help to choose a force law: geometry, use and limit of each law."""
 
 from __future__ import annotations
 
@@ -6,10 +6,17 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from gudgeon.generator.kinds.laws.law import Law
 
+# Role: column heads after the law.
+_COLUMNS: Mapping[str, tuple[str, ...]] = {
+    "normal": ("geometry", "use", "run stops at"),
+    "friction": ("use", "property"),
+    "film": ("geometry", "use", "valid for"),
+    "mixed": ("weight $b$ of the dry force", "valid for"),
+}
 _CYLINDERS = ("pin in a hole, parallel axes", "contacts that are narrow compared with the radii")
-_TENTH = r"$\delta \le R_i/10$"
-# Law: geometry, use, limit.
-_CHOICE: Mapping[str, tuple[str, str, str]] = {
+_TENTH = r"$\delta = R_i/10$"
+# Law: cells of its row.
+_CHOICE: Mapping[str, tuple[str, ...]] = {
     "lankarani_nikravesh": ("spheres, by `geometry`", "comparison with publications, $c_e$ near 1", _TENTH),
     "hertz": (
         "spheres, or a given stiffness",
@@ -22,25 +29,24 @@ _CHOICE: Mapping[str, tuple[str, str, str]] = {
         r"conforming cylinders, $\delta$ up to some clearances",
         _TENTH,
     ),
-    "johnson": (*_CYLINDERS, r"$\delta \le 0.5\,c$"),
-    "esdu_78035": (*_CYLINDERS, r"$\delta \le 3.7\,c$"),
-    "expression": (
-        "any",
-        "measured or computed elastic forces",
-        r"$\delta$ up to the key `deepest`, by default $R_i/10$",
+    "johnson": (*_CYLINDERS, r"$\delta = 0.5\,c$"),
+    "esdu_78035": (*_CYLINDERS, r"$\delta = 3.7\,c$"),
+    "expression": ("any", "measured or computed elastic forces", "key `deepest`, by default $R_i/10$"),
+    "newton_restitution": (
+        "rigid surfaces",
+        "impacts far shorter than all other motion; no force during an impact",
+        "–",
     ),
-    "newton_restitution": ("rigid surfaces", "impacts far shorter than all other motion", "no force during an impact"),
-    "modified_coulomb": ("any", "no friction below $v_0$, constant above $v_1$", "creeps below $v_1$"),
-    "coulomb": ("any", "one coefficient and one characteristic slip", "creeps below $v_0$"),
-    "stribeck": ("any", "static friction falls to kinetic friction, decay $v_s$", "creeps below $v_0$"),
-    "bengisu_akay": ("any", "static friction at $v_0$, then a decay $v_d$", "creeps below $v_0$"),
-    "brown_mcphee": ("any", "smooth peak of static friction near $v_0$", "creeps below $v_0$"),
-    "threlfall": ("any", "exponential rise, constant above $v_r$", "creeps below $v_r$"),
-    "dahl": ("any", "sticking by the deflection of bristles", "static and kinetic friction are equal"),
+    "modified_coulomb": ("no friction below $v_0$, constant above $v_1$", "creeps below $v_1$"),
+    "coulomb": ("one coefficient and one characteristic slip", "creeps below $v_0$"),
+    "stribeck": ("static friction falls to kinetic friction, decay $v_s$", "creeps below $v_0$"),
+    "bengisu_akay": ("static friction at $v_0$, then a decay $v_d$", "creeps below $v_0$"),
+    "brown_mcphee": ("smooth peak of static friction near $v_0$", "creeps below $v_0$"),
+    "threlfall": ("exponential rise, constant above $v_r$", "creeps below $v_r$"),
+    "dahl": ("sticking by the deflection of bristles", "static and kinetic friction are equal"),
     "lugre": (
-        "any",
         "sticking, with static and kinetic friction",
-        r"dissipative where $\sigma_1 \le 4 g_v/\lvert v_t\rvert$",
+        r"passive at constant $F_n$ where $\sigma_1 \le 4 g_v/\lvert v_t\rvert$",
     ),
     "pinkus_sternlicht": (
         r"long bearing, $L/(2R_j) \gg 1$",
@@ -50,31 +56,32 @@ _CHOICE: Mapping[str, tuple[str, str, str]] = {
     "finite_length": ("finite length, open ends", "Reynolds' condition", "$L/(2R_j)$ from 0.1 to 3"),
     "ocvirk": ("short bearing", "half film or full film, with squeeze", "$L/(2R_j) < 1/2$"),
     "christensen": (
-        "rough surfaces",
-        "film and contact share the area; $b$ is three times differentiable",
+        "fraction of the area in contact; three times differentiable",
         "heights with a nearly normal distribution",
     ),
     "greenwood_tripp": (
-        "rough surfaces",
-        r"load of the asperities; the slope of $b$ jumps at $\Lambda = 0$",
+        r"load of the asperities, as a fraction of that at $\Lambda = 0$; its slope jumps at $\Lambda = 0$",
         "heights with a normal distribution",
     ),
 }
 
 
 def describe_choice_of_laws(laws_by_role: Mapping[str, Iterable[Law]]) -> Iterator[str]:
-    """Yield the Markdown lines of the table: a row for each law, with a link to its section.
+    """Yield the Markdown lines of a table for each role: a row for each law, with a link to its section.
 
-    A law without an entry in _CHOICE has its title as use.
+    A law without an entry in _CHOICE has its title in the first column.
     """
     yield from ("## Choice of a law", "")
     yield (
-        "The limit of a normal force is the penetration at which a run stops. A run also stops at $R_i/10$ if that is"
-        " smaller. In a guide, the half-height of the slider plus the gap replaces $R_i$."
+        "A run also stops at a penetration of $R_i/10$ if that is smaller than the limit of its law. In a guide, the"
+        " half-height of the slider plus the gap replaces $R_i$. All friction laws are for any geometry, and both laws"
+        " of mixed lubrication for rough surfaces."
     )
-    yield from ("", "| key | `law` | geometry | use | limit |", "|" + "---|" * 5)
     for role, laws in laws_by_role.items():
+        columns = _COLUMNS[role]
+        yield from ("", f"Laws of the key `{role}`:", "")
+        yield from (f"| `law` | {' | '.join(columns)} |", "|" + "---|" * (1 + len(columns)))
         for law in laws:
-            geometry, use, limit = _CHOICE.get(law.name, ("–", law.title, "–"))
-            yield f"| `{role}` | [`{law.name}`](#{law.name}) | {geometry} | {use} | {limit} |"
+            cells = _CHOICE.get(law.name, (law.title, *["–"] * (len(columns) - 1)))
+            yield f"| [`{law.name}`](#{law.name}) | {' | '.join(cells)} |"
     yield ""

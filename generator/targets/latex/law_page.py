@@ -10,16 +10,16 @@ from gudgeon.generator.kinds.laws.dissipation import (
     DISSIPATION,
     EXACT,
     FACTORS,
-    SEPARATION,
     SOURCES,
     compute_delivered_restitution,
 )
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws
+from gudgeon.generator.marked_text import get_markdown
 from gudgeon.generator.targets.format_tables import describe_condition
 from gudgeon.generator.targets.latex.document import Equation, make_sentence
 from gudgeon.generator.targets.latex.law import Form, derive_forms
 from gudgeon.generator.targets.latex.law_choice import describe_choice_of_laws
-from gudgeon.generator.targets.latex.law_symbols import list_symbol_rows
+from gudgeon.generator.targets.latex.law_symbols import find_symbols_of_law, list_symbol_rows
 from gudgeon.generator.targets.latex.play import format_option
 from gudgeon.generator.targets.latex.play_letters import get_latex_symbol
 from gudgeon.language.plot_units import format_unit
@@ -27,58 +27,31 @@ from gudgeon.language.units import find_si_unit
 
 _SOURCE_OF_EXACT = r"the equation of the delivered restitution with $e_r = c_e$, solved for $a$"
 SPECIFIED_RESTITUTIONS = (0.9, 0.7, 0.5)  # coefficients of restitution
-# Names and words of declarations, which are ASCII since they are also comments in C, and the page's spelling.
-_SPELLINGS = {
-    "Guembel": "Gümbel",
-    "Poeschel": "Pöschel",
-    "Astrom": "Åström",
-    "Ambrosio": "Ambrósio",
-    "Pennestri": "Pennestrì",
-    "Ueber die Beruehrung fester elastischer Koerper": "Über die Berührung fester elastischer Körper",
-    "fuer ": "für ",
-}
-# Symbols in the words of declarations: regular expression and the formula, applied in this order.
-_FORMULAS = (
-    (r"\|omega_s\| >> \|d epsilon/dt\|", r"$\\lvert\\omega_s\\rvert \\gg \\lvert\\dot\\varepsilon\\rvert$"),
-    (r"sigma_1 <= 4 (g_v|c_f)/\|v_t\|", r"$\\sigma_1 \\le 4 \1/\\lvert v_t\\rvert$"),
-    (r"L/D >> 1", r"$L/(2R_j) \\gg 1$"),
-    (r"L/D < 1/2", r"$L/(2R_j) < 1/2$"),
-    (r"L/D", r"$L/(2R_j)$"),
-    (r"R_i ([+-]) R_j", r"$R_i \1 R_j$"),
-    (r"omega_([ij]) ([+-]) omega_([ij])", r"$\\omega_\1 \2 \\omega_\3$"),
-    (r"(?<!\\)\bomega_s\b", r"$\\omega_s$"),
-    (r"(?<!\\)\bepsilon\b", r"$\\varepsilon$"),
-    (r"c \+ (\d) sigma\b", r"$c + \1\\sigma_r$"),
-    (r"(-?\d) sigma\b", r"$\1\\sigma_r$"),
-    (r"clearance c\b", "clearance $c$"),
-    (r"added to c,", "added to the radial clearance,"),
-    (r"fraction b\b", "fraction $b$"),
-    (r"approximation of b\b", "approximation of $b$"),
-    (r"\b0\.9502 mu\b", "0.9502 $c_f$"),
-    (r"at most mu times", "at most `mu` times"),
-    (r"1/xi\b", r"$1/\\xi$"),
-    (r"tanh\(v_t/v0\)", r"$\\tanh(v_t/v_0)$"),
-    (r"tanh 1 = 0\.76", r"$\\tanh 1 = 0.76$"),
-    (r"fallen to 1/e\b", r"fallen to $1/\\mathrm{e}$"),
-    (r"(?<![`\w])v([01])\b", r"$v_\1$"),
-    (r"(?<![`\w$({])v_([rs])\b", r"$v_\1$"),
-    (r"(?<![`\w$])c_e\b", "$c_e$"),
-    (r"\bF_el\b", r"$F_{\\text{el}}$"),
-    (r"factor a; none is a = 0, exact delivers", "factor $a$; `none` is $a = 0$, `exact` delivers"),
-    (r"(\d\.\d+)e10 N/m\^1\.5", "\\1·10¹⁰ N/m$^{1.5}$"),
-    (r"(\d\.\d+)e10\b", "\\1·10¹⁰"),
-    (r"N/m\^n", "N/m$^n$"),
-    (r"penetration delta", "penetration `delta`"),
-    (r"max\(0, \.\.\.\)", r"$\\max(0, \\dots)$"),
-    (r"with pulls: false", "with `pulls: false`"),
-    (r"unless geometry is internal", "unless `geometry` is `internal`"),
-)
 _SHEAR_SYMBOLS = r"D_0, L, R_j, \mu, c_{\text{film}}, c_a, s_\varepsilon, \varepsilon"  # of the equations of D_s
 _CAVITATION_SYMBOLS = r"w_n, w_t, s_\varepsilon"  # of the equations of a full film
-# What a choice of an option changes, in a law whose equations the form has.
-_CHOICES = {
-    "cavitation": "the whole film contributes, with the same film factor $S$:",
-    "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print:",
+# What a choice of an option changes: text before the equations of the form, and text in place of the equations.
+_CHOICES = {"cavitation": "the whole film contributes, with the same film factor $S$:"}
+_CHOICES_IN_WORDS = {
+    "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print: $F_r$ of the first equation for"
+    r" $w_n \ge 0$, and $-F_r$ for $w_n < 0$.",
+}
+# Values of required keys in the line of YAML of each law, by key, or by law and key.
+_EXAMPLES = {
+    "restitution": "0.9",
+    "mu": "0.1",
+    "mu_s": "0.15",
+    "v0": "1e-4 m/s",
+    "v1": "1e-3 m/s",
+    "v_s": "1e-2 m/s",
+    "v_r": "1e-3 m/s",
+    "decay": "1e-2 m/s",
+    "presliding": "20 um",
+    "force": "1e7 N/m * delta",
+    "viscosity": "100 cP",
+    "roughness": "1 um",
+    "kelvin_voigt.stiffness": "1e8 N/m",
+    "kelvin_voigt.damping": "2e3 N*s/m",
+    "lugre.stiffness": "1e5",
 }
 # The role's sentence before its laws, and that of the law of rigid surfaces.
 _INTRODUCTIONS = {
@@ -86,7 +59,8 @@ _INTRODUCTIONS = {
     "friction": "The friction force $F_t$ follows from the normal force $F_n$ and the slip $v_t$.",
     "film": r"The components $F_r$ and $F_t$ of the film force follow from the eccentricity ratio $\varepsilon$ and the"
     " effective squeeze velocity, $w_n$ and $w_t$.",
-    "mixed": "The force $F$ is a mean of the dry force and the film force with the weights $b$ and $1 - b$.",
+    "mixed": "The force $F$ is a mean of the dry force and the film force with the weights $b$ and $1 - b$. The weight"
+    r" $b$ is not the fraction of the load that the dry contact carries: that is $b F_{\text{dry}}/F$.",
 }
 _RIGID = (
     r"In an impact of rigid surfaces, the rate of the penetration changes from $\dot\delta^{-}$ to $\dot\delta^{+}$. In"
@@ -94,27 +68,6 @@ _RIGID = (
 )
 _HEADINGS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 _CONTACT_MODULUS = r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}"
-# Clauses of `validity` that the page leaves out, since the common keys or the symbols say the same.
-_LEFT_OUT = (SEPARATION, "sigma is the combined roughness")
-# Clauses of `validity` that define or describe the law and do not limit its use: how they begin.
-_PROPERTIES = (
-    "the stiffness is that of",
-    "the force begins with",
-    "near the end of each contact",
-    "gudgeon checks",
-    "an impact ",
-    "a closed contact ",
-    "in an impact,",
-    "the sources write",
-    "the largest coefficient",
-    "above epsilon",
-    "the film acts alone",
-    "the clearance c is",
-    "the fraction b",
-    "the approximation of b",
-)
-
-
 # Laws that most scenes use; they are described first in their role.
 _COMMON_LAWS = (
     "lankarani_nikravesh",
@@ -145,9 +98,32 @@ def print_laws_page() -> str:
     lines = [*describe_choice_of_laws(laws_by_role), *_describe_common_keys()]
     for role, laws in laws_by_role.items():
         lines += [f"## {_HEADINGS[role]}", "", _INTRODUCTIONS[role], ""]
-        lines += [line for law in laws for line in _describe_law_in_markdown(law)]
+        common = _find_common_symbols(laws)
+        lines += ["These symbols occur in several laws of this chapter:", ""]
+        lines += list_symbol_rows([", ".join(common)], "")
+        lines += [line for law in laws for line in _describe_law_in_markdown(law, common)]
         lines += _describe_dissipation() if role == "normal" else ()
     return "\n".join(lines)
+
+
+def _list_equations(law: Law) -> list[str]:
+    """Return the equations that a law declares, as the page prints them, and after them further symbols of its page.
+
+    The equation of the contact modulus is left out. Further symbols are those of other forms and of `validity`.
+    """
+    equations = [_name_film_clearance(law, latex) for latex in law.equation if latex != _CONTACT_MODULUS]
+    added = [_CAVITATION_SYMBOLS] if any(option.name == "cavitation" for option in law.options) else []
+    return [*equations, *added, *get_markdown(law.validity).split("$")[1::2]]
+
+
+def _find_common_symbols(laws: Iterable[Law]) -> list[str]:
+    """Return the symbols that equations of at least two of the laws have, in the order of their first use."""
+    users: dict[str, list[str]] = {}
+    for law in laws:
+        keys = [get_latex_symbol(parameter) for parameter in law.parameters]
+        for symbol in find_symbols_of_law(_list_equations(law), law.name, keys):
+            users.setdefault(symbol, []).append(law.name)
+    return [symbol for symbol, names in users.items() if len(names) > 1]
 
 
 def _find_common_options() -> dict[str, tuple[Field, list[str]]]:
@@ -164,21 +140,25 @@ def _describe_common_keys() -> Iterator[str]:
     """Yield the Markdown lines on the contact modulus and on the keys that several laws have."""
     yield from ("## Common equations and keys", "", "The contact modulus $E^{*}$ of both surfaces:", "")
     yield from ("$$", _CONTACT_MODULUS, "$$", "", *list_symbol_rows([_CONTACT_MODULUS], ""))
-    yield from ("Several laws have these keys. The section of a law names those that it has.", "")
-    yield from ("| key | laws | values | without it | meaning |", "|" + "---|" * 5)
+    yield from ("These keys are common to several laws; each section lists the common keys of its law.", "")
+    yield from ("| key | laws | values | default | meaning |", "|" + "---|" * 5)
     for name, (option, laws) in _find_common_options().items():
         values, default = _list_option_cells(option)[2:]
         links = ", ".join(f"[`{law}`](#{law})" for law in laws)
-        yield f"| `{name}` | {links} | {values} | {default} | {_format_declared_text(option.meaning)} |"
+        yield f"| `{name}` | {links} | {values} | {default} | {get_markdown(option.meaning)} |"
     yield ""
     yield (
         "- [The dissipation of a normal force](#the-dissipation-of-a-normal-force) lists the factor $a$ for each value"
         " of `dissipation`."
     )
-    yield "- With `geometry: internal`, $R_i + R_j$ in the equation of $K$ becomes $R_i - R_j$."
     yield (
-        r"- With `pulls: true`, the equation of $F_n$ applies without $\max(0, \dots)$. The formula pulls where"
-        " surfaces are driven apart fast; with `pulls: false`, the force is then 0."
+        "- With `geometry: internal`, $R_i + R_j$ in the equation of $K$ becomes $R_i - R_j$. For steel with radii of"
+        " 10 and 9.5 mm, `external` gives 1.06·10¹⁰ N/m$^{1.5}$ and `internal` 6.61·10¹⁰ N/m$^{1.5}$. The literature on"
+        " such slider-cranks prints 6.61·10¹⁰."
+    )
+    yield (
+        "- Where other forces drive the surfaces apart fast, the formula of $F_n$ gives a negative force. `pulls: true`"
+        " applies this force; `pulls: false` sets it to 0."
     )
     yield (
         r"- The key `angular_velocity` chooses the effective angular velocity $\omega_s$ of a film, in rad/s:"
@@ -231,9 +211,13 @@ def _describe_dissipation() -> Iterator[str]:
     yield from ("", "`gudgeon laws hertz` prints the steps of Newton's method for `dissipation: exact`.", "")
 
 
-def _describe_law_in_markdown(law: Law) -> Iterator[str]:
-    """Yield the Markdown lines on a law: title, other names, equations, symbols, choices, keys, validity, source."""
-    yield from (f"### `{law.name}`", "", f"{make_sentence(_format_declared_text(law.title))}", "")
+def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterator[str]:
+    """Yield the Markdown lines on a law: title, example, equations, symbols, choices, keys, validity, source.
+
+    `common_symbols` are those of the chapter's table, which the law's table leaves out.
+    """
+    yield from (f"### `{law.name}`", "", f"{make_sentence(get_markdown(law.title))}", "")
+    yield from (f"Example: `{make_example(law)}`", "")
     if law.also:
         names_text = ", ".join(f"`{name}`" for name in law.also)
         yield from (f"Other names, each for `{law.name}` with the `dissipation` of that name: {names_text}.", "")
@@ -243,10 +227,10 @@ def _describe_law_in_markdown(law: Law) -> Iterator[str]:
     common_options = _find_common_options()
     forms = [form for form in other_forms if not common_options.keys() & form.selected.keys()]
     if law.equation:
-        equations = [_name_film_clearance(law, latex) for latex in law.equation if latex != _CONTACT_MODULUS]
-        added = [_CAVITATION_SYMBOLS] if any("cavitation" in form.selected for form in forms) else []
+        equations = [latex for latex in _list_equations(law) if " = " in latex or r"\perp" in latex]
         keys = [get_latex_symbol(parameter) for parameter in law.parameters]
-        yield from (*_print_display(equations), *list_symbol_rows([*equations, *added], law.name, keys))
+        yield from _print_display(equations)
+        yield from list_symbol_rows(_list_equations(law), law.name, keys, common_symbols)
     else:
         yield from _print_display(map(_print_latex, default_form.equations))
         yield from (f"`gudgeon laws {law.name}` defines the symbols of these equations.", "")
@@ -262,41 +246,33 @@ def _describe_law_in_markdown(law: Law) -> Iterator[str]:
     yield from (f"**Source**: {_format_source(law.reference or law.source)}.", "")
 
 
+def make_example(law: Law) -> str:
+    """Return a line of YAML of a contact with the law and its required keys."""
+    required = [field.name for field in law.fields if field.required]
+    values = {name: _EXAMPLES.get(f"{law.name}.{name}") or _EXAMPLES[name] for name in required}
+    return f"{law.role}: {{{', '.join([f'law: {law.name}', *(f'{name}: {value}' for name, value in values.items())])}}}"
+
+
 def _print_validity(law: Law) -> Iterator[str]:
     """Yield the Markdown lines on the validity of a law and on its properties: a sentence, or a list of clauses.
 
-    Clauses are separated by "; " in `law.validity`. The first one is completed to "the law is valid for …" if needed.
-    _PROPERTIES tells the properties from the limits of use.
+    The first clause of `law.validity` is completed to "the law is valid for …" if needed.
     """
-    first, *others = law.validity.split("; ")
+    first, *others = get_markdown(law.validity).split("; ")
     if not first.startswith(("the law ", "the force ", "for ")):
-        article = "a " if first.startswith(("long bearing", "short bearing")) else ""
-        first = f"the law is valid for {article}{first}"
-    clauses = [clause for clause in (first, *others) if clause not in _LEFT_OUT]
-    properties = [clause for clause in clauses if clause.startswith(_PROPERTIES)]
-    limits = [clause for clause in clauses if clause not in properties]
-    for heading, items in (("Validity", limits), ("Properties", properties)):
-        sentences = [_format_declared_text(make_sentence(clause)) for clause in items]
+        first = f"the law is valid for {first}"
+    properties = get_markdown(law.properties).split("; ") if law.properties else []
+    for heading, clauses in (("Validity", [first, *others]), ("Properties", properties)):
+        sentences = [make_sentence(clause) for clause in clauses]
         if len(sentences) == 1:
             yield from (f"**{heading}**: {sentences[0]}", "")
         elif sentences:
             yield from (f"**{heading}**:", "", *(f"- {sentence}" for sentence in sentences), "")
 
 
-def _format_declared_text(text: str) -> str:
-    """Return a text of a declaration with names in full spelling and symbols as formulas (_SPELLINGS, _FORMULAS)."""
-    for name, spelling in _SPELLINGS.items():
-        text = text.replace(name, spelling)
-    for pattern, formula in _FORMULAS:
-        text = re.sub(pattern, formula, text)
-    return text
-
-
 def _format_source(text: str) -> str:
-    """Return the source of a declaration with names in full spelling and an en dash in ranges of pages."""
-    for name, spelling in _SPELLINGS.items():
-        text = text.replace(name, spelling)
-    return re.sub(r"(?<= )(\d+)--?(\d+)(?=[,;. ]|$)", r"\1–\2", text)
+    """Return the source of a declaration in Markdown with an en dash in ranges of pages."""
+    return re.sub(r"(?<= )(\d+)--?(\d+)(?=[,;. ]|$)", r"\1–\2", get_markdown(text))
 
 
 def _describe_choice(form: Form) -> Iterator[str]:
@@ -307,6 +283,9 @@ def _describe_choice(form: Form) -> Iterator[str]:
     if not form.equations:
         return
     choice = ", ".join(f"{key}: {format_option(value)}" for key, value in form.selected.items())
+    if words := " ".join(_CHOICES_IN_WORDS[key] for key in form.selected if key in _CHOICES_IN_WORDS):
+        yield from (f"With `{choice}`, {words}", "")
+        return
     explanation = " ".join(_CHOICES[key] for key in form.selected if key in _CHOICES)
     yield from (f"With `{choice}`, {explanation or 'these equations apply:'}", "")
     yield from _print_display(map(_print_latex, form.equations))
@@ -325,6 +304,8 @@ def _name_film_clearance(law: Law, latex: str) -> str:
 def _print_latex(equation: Equation) -> str:
     """Return an equation as LaTeX without hints for line breaks."""
     latex = f"{equation.left.latex} = {''.join(term.latex for term in equation.terms)}"
+    for letter in "rs":
+        latex = latex.replace(rf"_{{\text{{{letter}}}}}", f"_{letter}")
     return latex.replace(r"\allowbreak ", "").replace(r"\operatorname{max}", r"\max").replace("{} ", " ")
 
 
@@ -333,14 +314,13 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
 
     Columns: key, symbol, unit, condition, default, meaning.
     """
-    yield from ("| key | symbol | unit | condition | without it | meaning |", "|" + "---|" * 6)
+    yield from ("| key | symbol | unit | condition | default | meaning |", "|" + "---|" * 6)
     for parameter in fields:
         cells = _list_number_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
         yield (
             "| "
             + " | ".join(
-                cell.replace("|", "\\|")
-                for cell in (f"`{parameter.name}`", *cells, _format_declared_text(parameter.meaning))
+                cell.replace("|", "\\|") for cell in (f"`{parameter.name}`", *cells, get_markdown(parameter.meaning))
             )
             + " |"
         )
@@ -369,6 +349,6 @@ def _list_option_cells(option: Field) -> tuple[str, ...]:
     return (
         "",
         "",
-        " or ".join(f"`{format_option(value)}`" for value in option.values),
+        ", ".join(f"`{format_option(value)}`" for value in option.values),
         f"`{format_option(option.default_option)}`",
     )

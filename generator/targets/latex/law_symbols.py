@@ -40,8 +40,16 @@ _SYMBOLS: Mapping[str, tuple[str, str]] = {
     r"g_v": ("coefficient of friction in steady sliding", "1"),
     r"\varepsilon": ("eccentricity divided by the clearance of the film", "1"),
     r"\dot\varepsilon": ("rate of $\\varepsilon$", "1/s"),
-    r"w_n": ("effective squeeze velocity divided by the clearance of the film, along the eccentricity", "1/s"),
-    r"w_t": ("effective squeeze velocity divided by the clearance of the film, across the eccentricity", "1/s"),
+    r"w_n": (
+        r"effective squeeze velocity divided by the clearance of the film, along the eccentricity:"
+        r" $w_n = \dot\varepsilon$",
+        "1/s",
+    ),
+    r"w_t": (
+        r"effective squeeze velocity divided by the clearance of the film, across the eccentricity:"
+        r" $w_t = -\tfrac12 \varepsilon \omega_s$",
+        "1/s",
+    ),
     r"w_\varepsilon": ("scaled squeeze velocity", "1/s"),
     r"W": ("magnitude of the squeeze velocity", "1/s"),
     r"f": ("correction of the squeeze motion", "1"),
@@ -61,24 +69,24 @@ _SYMBOLS: Mapping[str, tuple[str, str]] = {
     r"D_s": (r"shear torque divided by $\omega_j - \omega_i$", "N·m·s"),
     r"\varphi": ("angle from the widest gap", "rad"),
     r"\varphi_1": ("start of the half film", "rad"),
-    r"b": ("fraction of the load that the dry contact carries", "1"),
+    r"b": ("weight of the dry force", "1"),
     r"\Lambda": (r"film thickness ratio: film thickness divided by $\sigma_r$", "1"),
     r"\eta": (r"height of the roughness divided by $\sigma_r$", "1"),
     r"F_{5/2}": (
-        r"mean of $(\eta - \Lambda)^{5/2}$ over the asperities with $\eta > \Lambda$;"
-        r" $\eta$ is the height of an asperity divided by $\sigma_r$",
+        r"$\int_\Lambda^\infty (\eta - \Lambda)^{5/2} \phi(\eta)\,d\eta$, with the height $\eta$ of an asperity divided"
+        r" by $\sigma_r$ and its standard normal density $\phi$",
         "1",
     ),
 }
 # Law, "" for the common equations: symbols that have another definition there.
 _SYMBOLS_OF_LAW: Mapping[str, Mapping[str, tuple[str, str]]] = {
     "newton_restitution": {r"\dot\delta^{-}": ("rate of the penetration before the impact", "m/s")},
-    "": {r"E^{*}": ("contact modulus", "Pa")},
+    "": {r"E^{*}": ("contact modulus of both surfaces", "Pa")},
 }
 # Functions, constants and layout in LaTeX: no symbols.
 _LAYOUT = re.compile(
     r"\\(?:begin|end)\{pmatrix\}|\\text\{ ?in an? [^}]*\}|\\(?:operatorname|mathrm)\{(?:sgn|atan2)\}"
-    r"|\\(?:frac|tfrac|sqrt|left|right|bigl|bigr|max|min|ln|exp|tanh|sin|cos|pi|quad|partial|int|le|ge|perp|approx)"
+    r"|\\(?:frac|tfrac|sqrt|left|right|bigl|bigr|max|min|ln|exp|tanh|sin|cos|pi|quad|partial|int|le|ge|gg|lvert|rvert|perp|approx)"
     r"(?![A-Za-z])|d(?=\\varphi|\\eta)"
 )
 
@@ -112,19 +120,32 @@ def find_symbols(latex: str, symbols: Iterable[str]) -> list[str]:
     return found
 
 
-def list_symbol_rows(equations: Iterable[str], law: str, keys: Iterable[str] = ()) -> Iterator[str]:
+def find_symbols_of_law(equations: Iterable[str], law: str, keys: Iterable[str]) -> list[str]:
+    """Return the symbols of a law's equations that have the common definition, without the symbols of its keys."""
+    of_keys = {*map(_normalize_latex, keys)}
+    names = find_symbols(r" \quad ".join(equations), [*_SYMBOLS, *of_keys])
+    return [name for name in names if name not in of_keys and name not in _SYMBOLS_OF_LAW.get(law, {})]
+
+
+def list_symbol_rows(
+    equations: Iterable[str], law: str, keys: Iterable[str] = (), defined: Iterable[str] = ()
+) -> Iterator[str]:
     """Yield the Markdown table of the symbols of declared equations in LaTeX, then an empty line.
 
-    `law`: name of the law, "" for the common equations. `keys`: symbols of its keys, which are left out. Raises
-    ValueError for an undefined symbol.
+    `law`: name of the law, "" for the common equations. `keys`: symbols of its keys, which are left out, as are those
+    in `defined` without a definition of their own in the law. There are no lines without symbols. Raises ValueError for
+    an undefined symbol.
     """
-    of_keys = [*map(_normalize_latex, keys)]
-    meanings = {**_SYMBOLS, **_SYMBOLS_OF_LAW.get(law, {})}
+    of_keys, of_law = [*map(_normalize_latex, keys)], _SYMBOLS_OF_LAW.get(law, {})
+    meanings = {**_SYMBOLS, **of_law}
     names = find_symbols(r" \quad ".join(equations), [*meanings, *of_keys])
-    yield from ("| symbol | quantity | unit |", "|---|---|---|")
+    left_out = {*of_keys, *defined} - {*of_law}
+    names = [name for name in names if name not in left_out]
+    if names:
+        yield from ("| symbol | quantity | unit |", "|---|---|---|")
     for name in names:
-        if name not in of_keys:
-            quantity, unit = meanings[name]
-            shown = re.sub(r"_\{([a-z]+)\}", r"_{\\text{\1}}", name)
-            yield f"| ${shown}$ | {quantity} | {unit} |"
-    yield ""
+        quantity, unit = meanings[name]
+        shown = re.sub(r"_\{([a-z]+)\}", r"_{\\text{\1}}", name)
+        yield f"| ${shown}$ | {quantity} | {unit} |"
+    if names:
+        yield ""

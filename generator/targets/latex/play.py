@@ -363,6 +363,7 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
     blocks: list[Block] = [
         make_paragraph(f"{make_sentence(law.title)} Source: {source}. Valid: {law.validity}.", tokens=joint.law_tokens)
     ]
+    blocks += [make_paragraph(f"Properties: {law.properties}.")] if law.properties else []
     blocks += [
         make_paragraph(
             f"Option {option.name}: {format_option(value)} ({option.meaning}).{_format_source(option, value)}"

@@ -55,6 +55,7 @@ def build_sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
                 [
                     *([f"Options: {law['options']}."] if law["options"] else []),
                     f"Valid: {law['valid']}.",
+                    *([f"Properties: {law['properties']}."] if law["properties"] else []),
                     f"Source: {law['source']}.",
                 ]
             )

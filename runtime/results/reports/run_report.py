@@ -33,7 +33,7 @@ UNASSIGNED_WORK_TOL = (
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
     r"(?P<title>.*?)\. (?:.*? )??Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\."
-    r"(?: Options: (?P<options>.*?)\.)?(?: |$)"
+    r"(?: Properties: (?P<properties>.*?)\.)?(?: Options: (?P<options>.*?)\.)?(?: |$)"
 )
 NOT_REQUESTED = "not requested: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
 
@@ -336,9 +336,9 @@ def _collect_accuracy_values(run: Result) -> dict[str, Any]:
 
 
 def read_laws(source: KernelSource) -> list[dict[str, str]]:
-    """Return {"title", "source", "valid", "options"} of each law of contact, friction and film, without repetitions.
+    """Return {"title", "source", "valid", "properties", "options"} of each law of contact, friction and film, once.
 
-    The texts are parsed from the comments of the scene's generated C; "options" is "" without options.
+    The texts are parsed from the comments of the scene's generated C; properties and options may be "".
     """
     laws: dict[tuple[str, str], dict[str, str]] = {}
     for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
