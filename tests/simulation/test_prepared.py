@@ -346,7 +346,7 @@ def test_tolerances_are_those_of_simulate(mechanism: str, scene: str, names: tup
 def test_valid_values_are_those_of_simulate(mechanism: str, scene: str) -> None:
     """For random values of all numbers, of which some violate limits or relations of the file, or are not normal."""
     sim, rng = load(mechanism, scene), np.random.default_rng(8)
-    slots = [slot for slot in sim.source.slots if not slot.words]
+    slots = [slot for slot in sim.source.parameters if not slot.words]
     prepared = sim.prepare([slot.address for slot in slots], (), 0.01, output=1)
     run, base = prepared._run, np.array([slot.default for slot in slots])
     assert run
@@ -386,7 +386,7 @@ def test_chosen_materials_and_contours(tmp_path: Path) -> None:
     (tmp_path / "drop.yaml").write_text(MATERIALS)
     sim = gudgeon.load(tmp_path / "drop.yaml", "dry")
     fixed = {"bearings.pin.journal_material": "bronze"}
-    depth = next(slot.address for k, slot in enumerate(sim.source.slots) if k == sim.source.contours[0].first + 3)
+    depth = next(slot.address for k, slot in enumerate(sim.source.parameters) if k == sim.source.contours[0].first + 3)
     prepared = sim.prepare(["soft", depth], ["A.F", "ball.y"], fixed=fixed)
     assert isinstance(prepared._run, ReusableRun)
     forces = []
