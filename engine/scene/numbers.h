@@ -77,7 +77,7 @@ static inline double get_time_just_after(double t) { return t + max_of(32.0 * DB
 /* Return the time at which rates of drives are evaluated: just after t if they may jump, else t. */
 static inline double get_time_after_jump(double t) { return RATE_JUMPS ? get_time_just_after(t) : t; }
 
-/* Return mod(a, b) in [0, b), with the sign of b. The end of a period belongs to the period that begins there. */
+/* Return mod(a, b), with the sign of b: between 0 and b. Zero at multiples of b; just before one, it may round to b. */
 static inline double mod_of(double a, double b)
 {
     const double remainder = fmod(a, b);

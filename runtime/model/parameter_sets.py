@@ -66,10 +66,10 @@ class Columns(Sequence[Mapping[str, Any]]):
             if name not in omitted_names
         }
 
-    def omit_nonfinite_values(self) -> dict[int, BadValueError]:
-        """Leave out values that are NaN or infinite.
+    def collect_nonfinite_values(self) -> dict[int, BadValueError]:
+        """Return an error for each run with values that are NaN or infinite, by index in rising order.
 
-        Return an error for each run that has any, by index in rising order. Their names are stored in `omitted_names`.
+        The names of these values are stored in `omitted_names`, and readers of the columns skip them.
         """
         errors: dict[int, BadValueError] = {}
         for name, column in self.columns.items():
@@ -111,7 +111,7 @@ def read_parameter_sets(parameters: ParameterSets) -> tuple[Sequence[Mapping[str
     if not parameter_sets:
         raise BadValueError("parameters is empty: expected at least one run", hint="a mapping, or {address: values}")
     if isinstance(parameter_sets, Columns):
-        errors = parameter_sets.omit_nonfinite_values()
+        errors = parameter_sets.collect_nonfinite_values()
     elif len(parameter_sets) > 1:
         floats = [x for parameter_set in parameter_sets for x in parameter_set.values() if isinstance(x, FLOATS)]
         for i, parameter_set in enumerate(() if all(map(math.isfinite, floats)) else parameter_sets):

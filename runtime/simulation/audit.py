@@ -374,8 +374,8 @@ def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> N
 def list_inapplicable_checks(source: KernelSource, method: str) -> set[str]:
     """Return the names of the sample checks that do not apply to the scene with this method.
 
-    Without masses or with undetermined reactions, forces and powers are not known. With rk4 in the full formulation,
-    the constraint equations drift.
+    In scenes with a body without mass, or with undetermined reactions, forces and powers are not known. With rk4 in the
+    full formulation the constraint equations drift, so that their checks, power and the balance of bodies do not apply.
     """
     names = set[str]()
     if source.massless_bodies or source.indeterminate:

@@ -394,7 +394,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
         owner_indices = file.read_array(f"{kind}.{owner_column}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
-        owner_indices = np.array([index[name] for name in file.read_texts(f"{kind}s/{owner_column}")], "i4")
+        owner_indices = np.array([index.get(name, -1) for name in file.read_texts(f"{kind}s/{owner_column}")], "i4")
     if len(owner_indices) and not (owner_indices.min() >= 0 and owner_indices.max() < len(names)):
         raise ValueError(f"the {kind}s refer to a name that the scene does not have")
     table = np.empty(len(owner_indices), dtype)
