@@ -57,8 +57,8 @@ static int compute_run_start(const Batch *batch, long i, const long *candidates,
 
 /*
  * Begin run i in the memory `run`: initial state, unless batch->started[i], discrete states, audit, envelope,
- * cancellation, method. Return 0, STOPPED or NOT_CLOSED. candidates: n runs whose start may be copied
- * (compute_run_start()). The step record belongs to the thread and is kept.
+ * cancellation, whether events may end the run, method. Return 0, STOPPED or NOT_CLOSED. candidates: n runs whose start
+ * may be copied (compute_run_start()). The step record belongs to the thread, so that its buffer is set again.
  */
 static int start_run(const Batch *batch, long i, const long *candidates, int n, Integrator *run)
 {
@@ -73,7 +73,7 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
     const StepRecord step_record = run->step_record; /* belongs to the thread, not to one run */
     gudgeon_run_start(run, batch->p_motion + i * batch->numbers, t0, y,
         batch->initial_discrete_states + i * AT_LEAST_ONE(N_DISCRETE));
-    run->began = i + 1;
+    run->run_number = i + 1;
     gudgeon_run_record(run, step_record.rows, step_record.capacity);
     restore_compression_flags(run, batch->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, batch->stop);
@@ -207,7 +207,7 @@ int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, lo
     for (; *current < end; ++*current) {
         const long i = *current;
         if (batch->phase[i] == NEW && !*batch->ending) {
-            const long before = run->began - 1;
+            const long before = run->run_number - 1;
             batch->status[i] = start_run(batch, i, &before, 1, run);
             batch->phase[i] = batch->status[i] ? OVER : BEGUN;
         }

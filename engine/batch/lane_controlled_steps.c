@@ -262,9 +262,9 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
 }
 
 /*
- * Return the number of successive steps, including this one, whose stiffness h rho speaks for the other method
- * (explicit or stiff) in each lane (switch_method_after_step()): h_rho is outside min_rho..max_rho of the limits. 0
- * where it is within.
+ * Return, for each lane, the number of successive steps, including this one, whose stiffness h rho speaks for the other
+ * method (explicit or stiff): h_rho is outside min_rho..max_rho of the limits. 0 where it is within. This stiffness
+ * detection decides the switch of the method (switch_method_after_step()).
  */
 static Lanes count_opposing_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
 {

@@ -26,7 +26,7 @@ static inline Lanes lanes_sign_of(Lanes x)
 /* Return the absolute value of each lane. */
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 
-/* Return mod(a, b) of each lane as mod_of(): between 0 and b. */
+/* Return a mod b of each lane by floored division, as mod_of(): 0 or with the sign of b, and |result| <= |b|. */
 static inline Lanes lanes_mod_of(Lanes a, Lanes b)
 {
     for (int k = 0; k < LANES; k++)

@@ -88,8 +88,8 @@ static double get_larger_or_nan(double largest, double value)
 }
 
 /*
- * Return the maximum norm of a change or rate of q (N_Q) as an angle, rad or rad/s; NaN is propagated. Lengths are
- * divided by the mechanism's size `extent`, m.
+ * Return the scaled maximum norm of a change or rate of q (N_Q), rad or rad/s; NaN is propagated. Lengths are divided
+ * by the mechanism's size `extent`, m. Used for the works (works.c), for change points and for corrections.
  */
 static double compute_angle_norm(const double *change, double extent)
 {
@@ -244,7 +244,8 @@ static void accumulate_sample_statistics(KinematicRun *run, double t, const Posi
 
 /*
  * Compute the motion at n samples. t: n + 1 times, s; q, v, a: n + 1 rows of N_Q. Row 0 of q and v holds the initial
- * state, or the last sample of the previous call. phi_max, phi_dot_max: updated maxima. steps: incremented. done: the
+ * state, or the last sample of the previous call. The first call also writes row 0 of a and includes row 0 in the
+ * maxima; a call that resumes the motion does not. phi_max, phi_dot_max: updated maxima. steps: incremented. done: the
  * last complete row, whatever status is returned. Return 0 or a status; after EVENTS_FULL the caller fetches the
  * records and calls again.
  */

@@ -175,7 +175,10 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
     lanes->smallest_a = select_value(is_sample, lanes_min_of(lanes->smallest_a, largest), lanes->smallest_a);
 }
 
-/* Copy the first n rows of lane k in a column of the block to `values`. */
+/*
+ * Gather one lane: copy the first n rows of lane k in a column of the block to `values`, a result array of the lane's
+ * run. The loop for n = BLOCK_ROWS has a fixed length.
+ */
 static inline void copy_lane_column(const Lanes *column, int k, long n, double *values)
 {
     if (n == BLOCK_ROWS)

@@ -58,8 +58,9 @@ static int exceeds_second_rate_limit(const Position *start, double h, double ext
 }
 
 /*
- * Compute the terms of third to fifth order of a first guess over a time h (s): displacement (N_X). All are zero
- * without an earlier position (interval 0), or where one is larger than MAX_HIGHER_ORDER_DISPLACEMENT.
+ * Compute the terms of third to fifth order of the predictor, a Taylor polynomial that gives Newton's method the first
+ * guess over a time h (s): displacement (N_X). All are zero without an earlier position (interval 0), or where one is
+ * larger than MAX_HIGHER_ORDER_DISPLACEMENT.
  */
 static void compute_higher_order_displacement(const Position *start, double h, double extent, double *displacement)
 {
@@ -118,10 +119,13 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
 static int complete_position(const KinematicRun *run, const Position *position) { return (void)run, (void)position, 0; }
 
 /*
- * Set the position at time t from a state q, v (N_Q each), complete with accelerations. Return 0 or a status. In the
- * regular case its tree coordinates are reduced from q and v, and q, v, a are recomputed from them. Values just after a
- * jump of a drive count. Where closures depend on each other, q and v are kept, the equations of motion of all bodies
- * give a, and last_correction is infinity.
+ * Set the position at time t from a state q, v (N_Q each), complete with accelerations. Values just after a jump of a
+ * drive count.
+ *
+ * In the regular case the tree coordinates s are reduced from q and v, and q, v, a are recomputed from them. No Newton
+ * iteration corrects s: close_step() only tests the Jacobian of the closures and computes the residual phi; its step
+ * and rates are not used, and last_correction is 0. If the Jacobian is singular, q and v are kept, the equations of
+ * motion of all bodies give a, and last_correction is infinity. Return 0, or N_LOOPS plus the status of dynamics().
  */
 static int initialize_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {

@@ -59,33 +59,35 @@ static double compute_scaled_defect(Integrator *run, const Step *step, const dou
 }
 
 /*
- * Check the rates `rate` of the dense output at time t against the right-hand side `dy` at state y, and record
- * CHECK_rate. Positions and velocities are checked separately, with films positions only. The limit is a fraction of
- * the largest rate and of the change of rates over the step. Rates of errors that add up to few tolerances over the
- * time passed are allowed in addition. Explicit steps limited by stability are allowed more. If this limit is exceeded,
- * the rounding error of rates is added to it. A failure at a jump of a drive is not recorded.
+ * Check the rates `rate` of the dense output at time t against the right-hand side `dy` at state y. Positions and
+ * velocities are checked separately, with films positions only. Each check records CHECK_rate with the maximum of the
+ * weighted errors and its limit, passed or failed; only a failure at a jump of a drive is not recorded.
+ *
+ * The limit is a fraction of the largest rate and of the change of rates over the step. Rates of errors that add up to
+ * few tolerances over the time passed are allowed in addition. Explicit steps limited by stability are allowed more. If
+ * this limit is exceeded, the rounding error of rates is added to it. `order`: 0 for positions, 1 for velocities.
  */
 static void check_dense_output_rates(Integrator *run, const Step *step, double t, const double *y, const double *rate,
     const double *dy, const Parameters *p)
 {
     double rounding[2 * N_X];
-    for (int part = 0; part < (has_films() ? 1 : 2); part++) {
-        const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
+    for (int order = 0; order < (has_films() ? 1 : 2); order++) {
+        const double slip = N_FRICTIONS ? AUDIT_SLIP / (order ? step->h : 1.0) : 0.0;
         const double elapsed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
         const int is_limited = !step->method->stiff && run->choice.h_rho > 1.0;
         double allowed = max_of(AUDIT_DRIFT / elapsed, is_limited ? AUDIT_STABILITY_ERROR / step->h : 0.0);
         double largest_error = 0.0, largest_rate = 0.0;
-        for (int k = part * N_X; k < (part + 1) * N_X; k++) {
+        for (int k = order * N_X; k < (order + 1) * N_X; k++) {
             const double weight = compute_audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
             largest_error = max_of(largest_error, fabs(rate[k] - dy[k]) * weight);
-            largest_rate = max_of(largest_rate, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
+            largest_rate = max_of(largest_rate, (fabs(dy[k]) + (order ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
             allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
         double limit = AUDIT_RATE * largest_rate + allowed;
         if (largest_error > limit) {
             if (estimate_rounding_of_rates(run, t, y, dy, p, rounding))
                 return;
-            for (int k = part * N_X; k < (part + 1) * N_X; k++)
+            for (int k = order * N_X; k < (order + 1) * N_X; k++)
                 limit = max_of(limit, AUDIT_RATE * largest_rate + allowed + rounding[k] * compute_audit_weight(run, k));
         }
         if (largest_error <= limit || !has_drive_jump_at_ends(run, step, p))

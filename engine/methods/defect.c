@@ -95,17 +95,18 @@ static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step,
 
 /*
  * Return the error of film forces at both ends of a step in multiples of its limit, without evaluating a right-hand
- * side, by compute_film_error_at_ends(). For scale_fraction = FILM_PART, the lanes have computed it. Return 0 for
- * explicit methods and without films. The result of measure_film_error() was up to 37 times as large, for errors far
- * below the limit.
+ * side, by compute_film_error_at_ends(). Return 0 for explicit methods and without films. scale_fraction: fraction of
+ * the largest acceleration that is the smallest scale of the error. For scale_fraction = FILM_PART, lanes with a Radau
+ * method have computed it. It does not replace measure_film_error(), which evaluates the state inside the step and was
+ * measured up to 37 times as large, for errors far below the limit.
  */
 static double estimate_film_error_at_ends(const Integrator *run, const Step *step, double scale_fraction)
 {
     if (!step->method->stiff || !has_films())
         return 0.0;
-    const int is_known =
+    const int is_computed_in_lane =
         step->stage_values_lane && step->method->lane_method >= METHOD_RADAU5 && scale_fraction == FILM_PART;
-    return (is_known ? step->film_error
+    return (is_computed_in_lane ? step->film_error
         : compute_film_error_at_ends(run, step, step->method->end_rates, scale_fraction))
         / compute_film_error_limit(run);
 }

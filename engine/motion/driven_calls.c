@@ -2,10 +2,10 @@
 
 /*
  * Build the state `tree`, which the scene's functions read, from the coordinates q and rates v of a call from Python.
- * Driven loops are solved at time t from the guess of their coordinates after the N_X tree coordinates in q. Return 0
- * or a status.
+ * Driven loops are solved at time t from the guess of their coordinates after the N_X tree coordinates in q; the status
+ * of this solution is ignored. Return 0 or the status of build_tree_state(), which solves them again.
  */
-static int solve_tree_state(
+static int build_tree_state_from_call(
     double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     double y[N_Y];
@@ -89,8 +89,8 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 
 #if HAS_ABSOLUTE_FALLBACK
 /*
- * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
- * engine uses this fallback only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
+ * Compute the tree accelerations a by the absolute equations, those of all bodies, at any state; for tests. Return 0 or
+ * a status. The engine uses this fallback only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
  */
 int gudgeon_absolute_fallback(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)

@@ -30,8 +30,9 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 }
 
 /*
- * Compute the integrated state y in tree coordinates, except internal states of laws, from the state of all bodies, (q,
- * v, works) in `absolute_state`.
+ * Compute the integrated state y = (s, ds/dt, works) in tree coordinates s from the state of all bodies, (q, v, works)
+ * in `absolute_state`. Works are copied; internal states of laws in y are left unchanged. discrete: not used here, but
+ * by the version for scenes with driven loops (motion/driven.c).
  */
 void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)

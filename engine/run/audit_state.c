@@ -63,9 +63,14 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 }
 
 /*
- * Check the end of an accepted and committed step: residuals, gaps, driven loops, forces of open joints, branches (only
- * while frozen), user-defined events. n_events_before: number of events in the list before the step. Return 0, also if
- * the audit is off, or AUDITED once any check has failed.
+ * Check the end of an accepted and committed step by the run-time checks of the audit:
+ * - residuals of the constraint equations;
+ * - gaps of joints with play against the stored contact states;
+ * - with dependent coordinates (N_DEPENDENT), the residuals of all constraint equations in the absolute state;
+ * - zero forces in open joints;
+ * - branches of the switching functions, only while they are frozen (kept over a step);
+ * - user-defined events. n_events_before: number of events in the list before the step.
+ * Return 0, also if the audit is off, or AUDITED once any check has failed.
  */
 static int audit_state(Integrator *run, int n_events_before, const Parameters *p)
 {

@@ -259,11 +259,12 @@ static inline int apply_drive_jumps_at_current_time(Integrator *run, const Param
 #endif
 
 /*
- * Complete the change of branch of a switching function that ended the step: apply the jump of a drive, update the
- * other branches, and suppress a repeated zero in the next step. The branch of switch_index itself has been changed
- * before (toggle_contact_or_branch()). Return 0 or a status. Called by apply_event().
+ * Complete the change of branch of a switching function that ended the step. apply_drive_jump() applies the jump of a
+ * drive and updates the other branches; suppress_repeated_switch() suppresses a repeated zero in the next step. The
+ * branch of switch_index itself has been changed before (toggle_contact_or_branch()). Return 0 or a status. Called by
+ * apply_event().
  */
-static int change_branch(Integrator *run, int switch_index, const Parameters *p)
+static int complete_branch_change(Integrator *run, int switch_index, const Parameters *p)
 {
     double dy_before[N_Y];
     memcpy(dy_before, run->dy, sizeof dy_before);

@@ -179,7 +179,8 @@ static inline int set_rigid_contact(Integrator *run, int joint, int is_closed)
  * Close and open contacts of compliant surfaces at the start of a run from gaps and gap rates, and return whether any
  * changed. The stored approach speed of a closed contact is at least |deltadot|; estimate_approach_speed() improves it.
  * A penetration within rounding (compute_gap_event_threshold()) counts as open while the journal leaves the wall. Rigid
- * contacts are left unchanged. Called once, when a run begins.
+ * contacts are left unchanged. update_compression() is called for each compliant contact. Called once, when a run
+ * begins.
  */
 static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
 {

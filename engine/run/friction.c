@@ -214,7 +214,10 @@ static inline double evaluate_friction_event_function(const DiscreteState *discr
     return 1.0;
 }
 
-/* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. Return a status. */
+/*
+ * Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. Return a status. Called
+ * at the end of each step and at states of the dense output in the search for events (evaluate_state_at()).
+ */
 static inline int evaluate_rates_without_residual_slips(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {

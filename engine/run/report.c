@@ -14,8 +14,8 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
 /*
  * Report the progress of a run for messages about a stall. Called when a run of a batch ends, whatever its status.
  *
- * time_advance: time in s by which the last MONITOR_STEPS steps advanced. steps[0]: MONITOR_STEPS; steps[1]: 1 if these
- * steps are far shorter than earlier ones, 2 if their number grows exponentially with time, else 0. ended_steps
+ * advanced_time: time in s by which the last MONITOR_STEPS steps advanced. steps[0]: MONITOR_STEPS; steps[1]: 1 if
+ * these steps are far shorter than earlier ones, 2 if their number grows exponentially with time, else 0. ended_steps
  * (N_STEP_ENDS): how many steps each kind of event ended since the last check; steps without an event are not reported.
  */
 static void report_progress(const Integrator *run, double *time_advance, long *steps, long *ended_steps)

@@ -331,7 +331,7 @@ typedef struct {
 /*
  * The integrator of a run. Only the files named in the head comment of a part write that part
  * (tests/engine/test_owners.py); all files may change the state.
- * State: t, y, dy, rhs, discrete, ready, began, step.
+ * State: t, y, dy, rhs, discrete, ready, run_number, step.
  */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
@@ -356,7 +356,7 @@ typedef struct {
     Cancellation cancellation;
     int ready;
     StepRecord step_record;
-    long began; /* 1 + index of the run of a batch started last in this memory; 0: none */
+    long run_number; /* 1 + index of the run of a batch started last in this memory; 0: none */
     Step step;
     Audit audit;
 } Integrator;

@@ -70,7 +70,8 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
 
 /*
  * Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. dy, rhs: the
- * result, at the changed y. Return 0 or a status. Called at states of the dense output and at ends of steps.
+ * result, at the changed y. Return 0 or a status. Called at the end of each step and at states of the dense output in
+ * the search for events (evaluate_state_at()).
  */
 static int evaluate_rates_without_residual_slips(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)

@@ -81,8 +81,8 @@ static void add_residual_slips(Integrator *run, double t, const double *y, const
 #endif
 
 /*
- * Return the value of monitored function number `index`, a switching function or a user-defined event, not multiplied
- * by its branch or sign.
+ * Return the value of monitored event function number `index`, a switching function or a user-defined event, not
+ * multiplied by its branch or sign.
  */
 static inline double get_monitored_value(const RhsOutputs *rhs, int index)
 {
@@ -92,8 +92,10 @@ static inline double get_monitored_value(const RhsOutputs *rhs, int index)
 
 #if KNOWN_BOUNDS
 /*
- * Estimate how much errors of the state (2 N_X) change each monitored function, by interval arithmetic: uncertainty
- * (N_MONITORED), 0 if the bounds contain a pole.
+ * Estimate how much errors of the state change each monitored event function, by interval arithmetic. Monitored are
+ * switching functions and user-defined events. error (2 N_X): bounds of the error of each coordinate and rate, such as
+ * the tolerance of the step or the constraint residuals. uncertainty (N_MONITORED): 0 if the bounds contain a pole.
+ * Called by estimate_rounding_uncertainty() and by the search for zeros (watch/watched.c).
  */
 static void estimate_monitored_function_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
@@ -102,10 +104,11 @@ static void estimate_monitored_function_errors(
 }
 #else
 /*
- * Estimate how much errors of the state (2 N_X) change each monitored function, because no interval bounds are known.
- * uncertainty (N_MONITORED): the sum of finite differences for four patterns of error signs; 0 if the evaluation at y
- * fails. The differences are taken for errors divided by OBSERVED_FACTOR and multiplied by it again. A pattern whose
- * evaluation fails, or whose change is not finite, is omitted.
+ * Estimate how much errors of the state change each monitored event function, because no interval bounds are known.
+ * error (2 N_X): bounds of the error of each coordinate and rate. uncertainty (N_MONITORED): the sum of finite
+ * differences for four patterns of error signs; 0 if the evaluation at y fails. The differences are taken for errors
+ * divided by OBSERVED_FACTOR and multiplied by it again. A pattern whose evaluation fails, or whose change is not
+ * finite, is omitted.
  */
 static void estimate_monitored_function_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
@@ -132,8 +135,8 @@ static void estimate_monitored_function_errors(
 
 /*
  * Estimate how much rounding, constraint residuals and residual slips of the state y at time t (s) change each
- * monitored function: uncertainty (N_MONITORED). A value below its uncertainty has no sign. Called when a value near
- * zero must be distinguished from rounding.
+ * monitored event function: uncertainty (N_MONITORED). A value below its uncertainty has no sign. Called when a value
+ * near zero must be distinguished from rounding.
  */
 static void estimate_rounding_uncertainty(
     Integrator *run, double t, const double *y, const Parameters *p, double *uncertainty)

@@ -190,9 +190,10 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
 }
 
 /*
- * Return the scaled error norm of a step from rates dy at its beginning and the contribution `stage_sum` of its stages
- * (embedded formula). Outputs: r, the sum of both, and u, the error of each component: r filtered by the real Newton
- * matrix.
+ * Return the scaled error norm of a step from rates dy at its beginning (y per s) and `stage_sum`, the linear
+ * combination of the stages of the embedded formula, divided by h (y per s). Outputs: r = dy + stage_sum, and u, the
+ * error of each component: r filtered by the real Newton matrix, u = (gamma/h I - J)^-1 r with gamma of
+ * RADAU_TABLE.
  */
 static Real RADAU(estimate_error)(const IntegratorOf *run, Real h, const Real *dy, const Real *stage_sum, Real *r,
     Real *u)

@@ -23,7 +23,7 @@ static int compute_absolute_rates(double t, const double *y, const DiscreteState
 
 /*
  * Compute the rates dy of a state y in absolute coordinates with the contact forces stored in `discrete`, as a callback
- * of compute_rates_in_contact(). Return a status.
+ * of compute_rates_in_contact(), whose type RatesOf has a non-const `discrete`. Return a status.
  */
 static int evaluate_state_rates(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)

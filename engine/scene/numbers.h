@@ -77,7 +77,10 @@ static inline double get_time_just_after(double t) { return t + max_of(32.0 * DB
 /* Return the time at which rates of drives are evaluated: just after t if they may jump, else t. */
 static inline double get_time_after_jump(double t) { return RATE_JUMPS ? get_time_just_after(t) : t; }
 
-/* Return mod(a, b), with the sign of b: between 0 and b. Zero at multiples of b; just before one, it may round to b. */
+/*
+ * Return a mod b by floored division: 0 or with the sign of b, and |result| <= |b|. The result equals b only if a tiny
+ * remainder of the other sign rounds to b.
+ */
 static inline double mod_of(double a, double b)
 {
     const double remainder = fmod(a, b);

@@ -18,10 +18,11 @@ enum { N_PADDED_ROWS = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* number of equati
 /* Workspace of the orthogonalization. */
 typedef struct {
     double basis[N_Q][N_Q];                   /* orthonormal basis of the rows so far, then of the null space */
-    double remainder[N_Q][N_PADDED_ROWS];     /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
+    double row_remainder[N_Q][N_PADDED_ROWS]; /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
     double lower[AT_LEAST_ONE(N_ROWS)][N_PADDED_ROWS]; /* row i = sum over k of lower[k][i] basis[k] */
     double is_unselected[N_PADDED_ROWS];             /* 1 of a row that is not in the basis, 0 of others */
-    double phi_q[N_ALL_ROWS][N_Q], root_norm[N_Q], y[N_Q], residual[AT_LEAST_ONE(N_ROWS)];
+    /* constraint Jacobian; square roots of the norm (or M); accelerations times root_norm; residuals of the rows */
+    double phi_q[N_ALL_ROWS][N_Q], root_norm[N_Q], scaled_acceleration[N_Q], residual[AT_LEAST_ONE(N_ROWS)];
     double row_norm_squared[AT_LEAST_ONE(N_ROWS)];
     double magnitude[AT_LEAST_ONE(N_ROWS)];   /* of the terms of right-hand sides */
     /* M over the norm, (root of the norm)^-1 g, Z^T M Z and its solution */
@@ -88,12 +89,12 @@ static void remove_basis_component(Workspace *workspace, int rank)
     const double *basis = workspace->basis[rank];
     for (int pass = 0; pass < 2; pass++) {
         double components[N_PADDED_ROWS];
-        multiply_rows_by_vector(workspace->remainder, basis, components);
+        multiply_rows_by_vector(workspace->row_remainder, basis, components);
         for (int i = 0; i < N_PADDED_ROWS; i++) {
             components[i] *= workspace->is_unselected[i];
             workspace->lower[rank][i] += components[i];
         }
-        subtract_from_rows(workspace->remainder, basis, components);
+        subtract_from_rows(workspace->row_remainder, basis, components);
     }
 }
 
@@ -110,7 +111,7 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
             return -1;
         int pivot = rank;
         double largest = 0.0, square[N_PADDED_ROWS];
-        compute_squared_norms(workspace->remainder, square);
+        compute_squared_norms(workspace->row_remainder, square);
         for (int i = rank; i < N_ROWS; i++) {
             const double relative_square =
                 square[workspace->order[i]] / workspace->row_norm_squared[workspace->order[i]];
@@ -126,7 +127,7 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
         workspace->order[rank] = row;
         const double length = sqrt(square[row]);
         for (int k = 0; k < N_Q; k++)
-            workspace->basis[rank][k] = workspace->remainder[k][row] / length;
+            workspace->basis[rank][k] = workspace->row_remainder[k][row] / length;
         workspace->lower[rank][row] = length;
         workspace->is_unselected[row] = 0.0;
         remove_basis_component(workspace, rank);
@@ -166,10 +167,11 @@ static void compute_mass_norm(Workspace *workspace)
 }
 
 /*
- * Initialize the workspace before a selection of independent equations: rows of Phi_q scaled by the norm, their order,
- * and the right-hand sides rhs - Phi_q M^-1 g. If a mass or moment of inertia is small (workspace->has_small_mass),
- * M^-1 g is left out of them; add_free_motion() adds the free motion later. force: g; rhs: right-hand sides of the
- * acceleration constraints. Called by solve_dependent_equations() for each pass.
+ * Initialize the workspace before a selection of independent equations: rows of Phi_q scaled by the square roots of the
+ * norm (root_norm), their order, and the right-hand sides rhs - Phi_q M^-1 g. Accelerations are scaled inversely
+ * (scaled_acceleration); each row is its own remainder as long as the basis is empty. If a mass or moment of inertia is
+ * small (workspace->has_small_mass), M^-1 g is left out of them; add_free_motion() adds the free motion later. force:
+ * g; rhs: right-hand sides of the acceleration constraints. Called by solve_dependent_equations() for each pass.
  */
 static void initialize_workspace(Workspace *workspace, double t, const double *q, const Parameters *p,
     const double *force,
@@ -181,18 +183,19 @@ static void initialize_workspace(Workspace *workspace, double t, const double *q
     compute_mass_norm(workspace);
     for (int k = 0; k < N_Q; k++) {
         workspace->force[k] = force[k] / workspace->root_norm[k];
-        workspace->y[k] = workspace->has_small_mass ? 0.0 : workspace->force[k];
+        workspace->scaled_acceleration[k] = workspace->has_small_mass ? 0.0 : workspace->force[k];
     }
     for (int i = 0; i < N_ROWS; i++) {
         double row[N_Q];
         workspace->order[i] = i;
         workspace->is_unselected[i] = 1.0;
         for (int k = 0; k < N_Q; k++)
-            row[k] = workspace->remainder[k][i] = workspace->phi_q[motion_row[i]][k] / workspace->root_norm[k];
+            row[k] = workspace->row_remainder[k][i] = workspace->phi_q[motion_row[i]][k] / workspace->root_norm[k];
         workspace->row_norm_squared[i] = compute_dot_product(row, row) + 1e-300;
-        workspace->residual[i] = rhs[i] - compute_dot_product(row, workspace->y);
+        workspace->residual[i] = rhs[i] - compute_dot_product(row, workspace->scaled_acceleration);
         workspace->magnitude[i] = fabs(rhs[i]) + sqrt(workspace->row_norm_squared[i]
-            * compute_dot_product(workspace->y, workspace->y)); /* its size, for the comparison below */
+            * compute_dot_product(workspace->scaled_acceleration,
+                workspace->scaled_acceleration)); /* its size, for the comparison below */
     }
 }
 
@@ -229,9 +232,9 @@ static void complete_basis(Workspace *workspace, int rank)
 }
 
 /*
- * Add the motion in the null space of the constraints to the accelerations workspace->y, and compute the right-hand
- * sides of the multipliers. Called where the norm is not the mass matrix; rank: number of independent rows. Return 0 if
- * M is singular there (the Cholesky factorization of Z^T M Z fails), else 1.
+ * Add the motion in the null space of the constraints to the accelerations workspace->scaled_acceleration, and compute
+ * the right-hand sides of the multipliers. Called where the norm is not the mass matrix; rank: number of independent
+ * rows. Return 0 if M is singular there (the Cholesky factorization of Z^T M Z fails), else 1.
  */
 static int add_free_motion(Workspace *workspace, int rank)
 {
@@ -240,7 +243,8 @@ static int add_free_motion(Workspace *workspace, int rank)
         double *row = workspace->null_space_mass[i];
         workspace->z[i] = compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
-            workspace->z[i] -= workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->y[k];
+            workspace->z[i] -=
+                workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->scaled_acceleration[k];
         for (int j = rank; j <= i; j++) {
             row[j] = 0.0;
             for (int k = 0; k < N_Q; k++)
@@ -263,22 +267,22 @@ static int add_free_motion(Workspace *workspace, int rank)
             workspace->z[i] -= workspace->null_space_mass[j][i] * workspace->z[j];
         workspace->z[i] /= workspace->null_space_mass[i][i];
         for (int k = 0; k < N_Q; k++)
-            workspace->y[k] += workspace->z[i] * workspace->basis[i][k];
+            workspace->scaled_acceleration[k] += workspace->z[i] * workspace->basis[i][k];
     }
     for (int i = 0; i < rank; i++) {
         double sum = -compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
-            sum += workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->y[k];
+            sum += workspace->basis[i][k] * workspace->mass_over_norm[k] * workspace->scaled_acceleration[k];
         workspace->residual[workspace->order[i]] = sum;
     }
     return 1;
 }
 
 /*
- * Compute accelerations workspace->y and multipliers lambda (N_ROWS) by the independent equations; dependent ones have
- * lambda = 0. A row is independent if its remainder outside the rows already selected has a squared norm above
- * pivot_tol_squared, relative to the row. Return 1 if the dependent equations agree to `tolerance`, 0 if not or if M is
- * singular, or STOPPED on cancellation.
+ * Compute accelerations workspace->scaled_acceleration and multipliers lambda (N_ROWS) by the independent equations;
+ * dependent ones have lambda = 0. A row is independent if its remainder outside the rows already selected has a squared
+ * norm above pivot_tol_squared, relative to the row. Return 1 if the dependent equations agree to `tolerance`, 0 if not
+ * or if M is singular, or STOPPED on cancellation.
  */
 static int solve_independent_equations(Workspace *workspace, double pivot_tol_squared, double tolerance, double *lambda)
 {
@@ -294,7 +298,7 @@ static int solve_independent_equations(Workspace *workspace, double pivot_tol_sq
         }
         workspace->residual[row] = component;
         for (int j = 0; j < N_Q; j++)
-            workspace->y[j] += component * workspace->basis[k][j];
+            workspace->scaled_acceleration[j] += component * workspace->basis[k][j];
     }
     if (workspace->has_small_mass && !add_free_motion(workspace, rank))
         return 0;
@@ -341,7 +345,7 @@ int solve_dependent_equations(double t, const double *q, const Parameters *p, co
         }
         status = 0;
         for (int k = 0; k < N_Q; k++) {
-            a[k] = workspace->y[k] / workspace->root_norm[k];
+            a[k] = workspace->scaled_acceleration[k] / workspace->root_norm[k];
             if (!isfinite(a[k]))
                 status = pivot;
         }

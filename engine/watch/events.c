@@ -436,10 +436,12 @@ static double compute_rate_jump(const Integrator *run, const double *dy_before)
 
 /*
  * Suppress a switching point in the next step (roots.suppressed_switch) if the motion crossed it twice within a
- * thousandth of the step length; otherwise end a suppression. An example is a journal at rest in its film. Called at
- * each change of branch. Both branches must meet there, or differ by rounding only (dy_before: rates of the previous
- * branch). The next step is limited to roots.suppression_length: 20 times the maximum of the time between the
- * crossings, the previous limit and 100 resolutions of time.
+ * thousandth of the step length; otherwise end a suppression. This avoids chattering (Zeno behaviour); an example is a
+ * journal at rest in its film. Called at each change of branch. Both branches must meet there (is_continuous_switch);
+ * with step-size control it is enough that their rates times the longer of step and suppression length differ by less
+ * than MIN_RATE_JUMP_TOL. dy_before: rates of the previous branch. The next step is limited to
+ * roots.suppression_length: 20 times the maximum of the time between the crossings, the previous limit and 100
+ * resolutions of time.
  */
 static void suppress_repeated_switch(Integrator *run, int switch_index, const double *dy_before)
 {

@@ -225,9 +225,11 @@ class Model:
 
     @property
     def has_changing_constraints(self) -> bool:
-        """Return whether some constraint equations are active only at times: there is dry friction or a rigid contact.
+        """Return whether some constraint equations are active only at times: stiction of friction, or a rigid contact.
 
-        The right-hand side then reports a vanishing pivot instead of solving the dependent equations.
+        The constraints are then intermittent (unilateral contact, variable structure); constraint equations that depend
+        on time do not count. The right-hand side then reports a vanishing pivot instead of solving the dependent
+        equations.
         """
         return bool(self.frictions or self.rigid)
 

@@ -86,7 +86,7 @@ class Rules(ABC):
 
     @abstractmethod
     def define_companion_function(self, value: sp.Expr) -> sp.Symbol:
-        """Return the symbol of another function of the same argument."""
+        """Return the symbol of an auxiliary function of the same argument, such as cos u for sin u."""
 
     def is_constant_in_time(self, value: sp.Basic) -> bool:
         """Return whether a value has only order 0: it contains no local that varies with time."""

@@ -15,7 +15,10 @@ from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 
 @dataclass(frozen=True)
 class Line:
-    """A line of a function: expressions and names that it reads, arrays that it writes, the local that it declares."""
+    """An instruction of a function, printed as one or more lines; base of all kinds, such as `Statement`.
+
+    It knows the expressions and names that it reads, the arrays that it writes and the local that it declares.
+    """
 
     writes: ClassVar[Names] = NO_NAMES
     declared_local: ClassVar[str] = ""

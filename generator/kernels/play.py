@@ -222,8 +222,12 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
 def _make_conditional_values(clearance: Clearance, equations: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
     """Return conditional values, by symbol, that replace those `equations` that divide by the eccentricity e.
 
-    At e = 0 the normal is (1, 0). A flat wall needs none: the result is empty. A contour needs further ones, for its
-    normal and the rate of its angle.
+    A conditional value is a condition, the value if it holds, and the value otherwise. There are three cases:
+
+    - Bearing without a contour: the normal has the condition e > 0, and is (1, 0) otherwise.
+    - Flat wall: no equation divides by e, the result is empty.
+    - Contour: the direction to the centre and the rate of the contour's angle have the condition e > 0. The normal has
+      the condition that the gradient of the contour is not 0.
     """
     if not clearance.contour:
         return {} if clearance.wall else _CONDITIONAL_NORMAL

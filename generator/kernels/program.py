@@ -83,7 +83,7 @@ class TreeFunctions:
 
     @property
     def all_kernels(self) -> tuple[Kernel, ...]:
-        """Return all functions of the reduced formulation in the order of printing."""
+        """Return the kernels in tree coordinates in the order of printing: conversions, motion, driven loops."""
         return (
             *self.conversions,
             *self.kernels,

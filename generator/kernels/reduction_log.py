@@ -120,8 +120,8 @@ def _list_joint_names(tree_edges: Iterable[TreeEdge]) -> tuple[str, ...]:
 def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
     """Yield three steps, the elimination of prescribed, of constant and of dependent angles; each may be empty.
 
-    Each equation used has eliminated one angle. A prescribed angle follows from drives alone, a dependent one also from
-    other angles.
+    Each equation used has eliminated one angle. Its name is in the field `rows_gone` of the step. A prescribed angle
+    follows from drives alone, a dependent one also from other angles.
     """
     drives = model.scene.mechanism.drives
 

@@ -66,8 +66,9 @@ def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
     """Return the Taylor series in a program's library, and the tolerance below which `auto` integrates by series.
 
     The tolerance is 0.0 if `auto` always uses dop853: the motion is not smooth, or the series costs more. The series is
-    None if only tolerances of single runs need it (SINGLE_RUN_EXPONENT), or if the right-hand side has more than
-    MAX_BUNDLED_OPERATIONS. It is then compiled on request, for the variant NAME of the scene.
+    None if its tolerance is at most MAX_SINGLE_RUN_TOL, so that usually only single runs need it, or if the right-hand
+    side has more than MAX_BUNDLED_OPERATIONS. The returned tolerance is then at most MAX_SINGLE_RUN_TOL, and the series
+    is compiled on request, as a second library of the scene: its variant NAME ("taylor").
     """
     try:
         system = _get_smooth_system(program)
@@ -189,11 +190,12 @@ class _RecordedKKT(KKT):
     def solve(
         self, builder: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Append the solution of the KKT system and return it by node (number of coordinate, equation, friction).
+        """Append the solution of the KKT system as `KKT.solve` does, and record its right-hand sides and unknowns.
 
-        The names of the right-hand sides go to `right_hand_sides`, the symbols of the unknowns to `unknowns`. `factor`:
-        the result of `factorize`. `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the
-        locals.
+        Called once per kernel of order 0; higher orders of the series follow from the record. The names of the
+        right-hand sides go to `right_hand_sides`, the symbols of the unknowns to `unknowns`. Returned is the solution
+        by node (number of coordinate, equation, friction). `factor`: the result of `factorize`. `b`: the right-hand
+        side by node, absent ones zero; `prefix` begins the names of the locals.
         """
         builder.begin_section("right-hand side")
         right_hand_side_symbols = {

@@ -179,7 +179,10 @@ def _merge_contacts(parent: Map, child: Map) -> Map:
 def _read_contact(reader: Reader, name: Text, node: Map) -> Contact:
     """Return one contact, whose `extends` was resolved before.
 
-    Errors of its laws are collected. Raises an InputError if its parts contradict each other.
+    A contact has up to four laws (`normal`, `friction`, `film`, `mixed`), the length of its transition, `clip_ratio`
+    and `velocity_floor`. Errors of its laws are collected. Raises an InputError if the keys contradict each other
+    (`_check_contact_keys`), for friction with a normal law that has the option `pulls`, and for `mixed` with a film
+    that has the option `as_printed`.
     """
     address = f"contacts.{name}"
     law_uses: dict[str, LawUse | None] = dict.fromkeys(_ROLES)

@@ -123,9 +123,10 @@ class ResultNames:
         return self.owners[owner][result]
 
     def check_series_name(self, name: Text, outputs: Iterable[str]) -> None:
-        """Raise UnknownNameError, with the nearest series, for a name without a dot; others are not checked here.
+        """Raise UnknownNameError, with the nearest series, for any name without a dot; others are not checked here.
 
-        Callers pass no names of `outputs`, which are series too.
+        A series of a result is named OWNER.RESULT. Series that the section `outputs` defines have no dot, so that
+        callers must not pass their names. `outputs`: these names, for the hint.
         """
         if "." in name:
             return

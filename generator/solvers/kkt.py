@@ -265,8 +265,8 @@ class KKT:
         if is_row_pair:
             is_early = any(i < self.n for i in self.elimination.structure[second])
             threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]
-            builder.append_line(make_pivot_guard(on_failure, 1, pivot_values[0], threshold, size[0]))
-            builder.append_line(make_pivot_guard(on_failure, 2, determinant, threshold, size[1], pivot_values[0]))
+            builder.append_line(make_pivot_guard(*on_failure, 1, pivot_values[0], threshold, size[0]))
+            builder.append_line(make_pivot_guard(*on_failure, 2, determinant, threshold, size[1], pivot_values[0]))
             self._append_joint_pivot_tests(
                 builder, block, scale, (pivot_values[0], determinant), (*on_failure, thresholds[1])
             )
@@ -326,9 +326,9 @@ class KKT:
         if not self.system.in_tree or first_row.owner != second_row.owner or first_row.unit != second_row.unit:
             return
         size = builder.append_local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
-        *failed, threshold = on_failure
-        builder.append_line(make_pivot_guard(failed, 1, pivots[0], threshold, size))
-        builder.append_line(make_pivot_guard(failed, 2, pivots[1], threshold, size, pivots[0]))
+        jumps, n_before, threshold = on_failure
+        builder.append_line(make_pivot_guard(jumps, n_before, 1, pivots[0], threshold, size))
+        builder.append_line(make_pivot_guard(jumps, n_before, 2, pivots[1], threshold, size, pivots[0]))
 
     def _invert_coordinate_pivot(
         self,

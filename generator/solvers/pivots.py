@@ -65,15 +65,19 @@ def append_friction_mode(builder: KernelBuilder, name: str, index: int) -> tuple
 
 
 def make_pivot_guard(
-    on_failure: Sequence[int], pivot_number: int, value: sp.Expr, *bound_factors: sp.Expr | float
+    jumps_on_failure: bool,
+    n_equations_before: int,
+    pivot_number: int,
+    value: sp.Expr,
+    *bound_factors: sp.Expr | float,
 ) -> Guard:
     """Return the test that a pivot is greater than a bound, the product of `bound_factors`.
 
-    `value`: the pivot. `on_failure`: whether failure jumps, and the number of equations before the block.
-    `pivot_number`: number of the pivot in the block, 1 or 2. If the test fails, the sum of both numbers is the status.
+    `value`: the pivot. `pivot_number`: its number in the block, 1 or 2. If the test fails, the kernel sets the status
+    to `n_equations_before` (the block) + `pivot_number`. With `jumps_on_failure` it then jumps to the code for
+    dependent equations, otherwise it returns the status.
     """
-    jumps, count = on_failure
-    return Guard(Test(value, ">", bound_factors), count + pivot_number, bool(jumps))
+    return Guard(Test(value, ">", bound_factors), n_equations_before + pivot_number, jumps_on_failure)
 
 
 def is_number_or_signed_symbol(value: sp.Expr) -> bool:

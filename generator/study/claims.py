@@ -56,9 +56,9 @@ TREND_KEYS = (*DESCRIPTIVE_KEYS, *STATEMENT_KEYS, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
-    """Return the claims of a study file; empty Claims if it makes none. Errors are collected.
+    """Return the claims of a study file and their source, the key `source`; empty Claims if the file makes none.
 
-    Wrong claims are left out. Names of claims must be unique.
+    Errors are collected. Wrong claims are left out. Names of claims must be unique.
     """
     if "claims" not in root:
         return Claims()

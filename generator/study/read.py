@@ -389,7 +389,7 @@ def _read_windows(reader: Reader, root: Map) -> dict[str, Window]:
 def _read_measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple[Measure, ...]:
     """Return the measures, NAME: {STATISTIC: SERIES, window: NAME}, in the order of the file; errors are collected.
 
-    `windows` are the windows that measures may name.
+    `windows` are the windows that measures may name. It is an error if measures subtract more than one other scene.
     """
     measures = []
     with reader.collect_errors():

@@ -79,7 +79,8 @@ class BranchOf(sp.Function):
 class Select(sp.Function):
     """Select(branch, a, b): b if the branch is below zero, else a.
 
-    The branch is not negated, so that all values agree at zero.
+    Branches are −1 or 1, as in `BranchOf`. `eval` replaces a negated branch, so that all values that depend on a branch
+    read the same symbol.
     """
 
     nargs = 3
@@ -87,9 +88,10 @@ class Select(sp.Function):
 
     @classmethod
     def eval(cls, branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """Return a or b if the branch is a number; otherwise None, or the equal `Select(s, b, a)` for `branch` = −s.
+        """Return b if the branch is a number below 0, a if it is another number; `Select(s, b, a)` for `branch` = −s.
 
-        At zero both forms then select the same value. Called by SymPy.
+        Return None, no replacement, for all other branches. At s = 0 the replacement selects b, and so do all values
+        that depend on s or −s. Called by SymPy.
         """
         if branch.is_Number:
             return b if branch < 0 else a

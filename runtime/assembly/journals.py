@@ -180,6 +180,7 @@ def _describe_corner_without_onset(
 ) -> Iterator[str]:
     """Yield a note on the corner of a slider if it begins in contact without approaching its wall (δ̇ ≤ 0).
 
+    The approach speed δ̇⁻ at the onset, the start of the contact, is then assumed.
     Nothing is yielded if the force does not depend on the approach speed: it is tested at velocities nearest to v with
     δ̇ = 1 m/s. joint_index: of the joint among those with play. Other arguments as in
     `describe_contacts_without_onset`.

@@ -51,8 +51,8 @@ def solve_independent_rows(matrix: Array, right_hand_side: Array) -> Array | Non
 def solve_dependent_rows(matrix: Array, right_hand_side: Array) -> Array:
     """Return an approximate minimum-norm least-squares solution x (n,) of matrix x = right_hand_side.
 
-    Rows may depend on each other. Singular values below MIN_SINGULAR_RATIO of the largest are damped; four repetitions
-    reduce the effect of the damping on the others.
+    Rows may depend on each other; used if the direct sparse solution (`solve_full_rank`) fails. Singular values below
+    MIN_SINGULAR_RATIO of the largest are damped; four repetitions reduce the effect of the damping on the others.
     """
     columns, x = matrix.shape[1], np.zeros(matrix.shape[1])
     solve = _factorize(matrix, (MIN_SINGULAR_RATIO * _compute_norm_bound(matrix)) ** 2)

@@ -275,9 +275,9 @@ def _wrap_labelled_text(label: str, text: str) -> str:
 
 
 def _group_columns(scenes: Mapping[str, KernelSource], label_width: int) -> Iterator[list[str]]:
-    """Yield groups of scene names whose columns fit next to each other in one table.
+    """Yield groups of scene names whose columns fit next to each other in one table of WIDTH characters.
 
-    label_width: width of the first column.
+    A scene whose column is too wide has a group of its own. label_width: width of the first column.
     """
     scene_names: list[str] = []
     for scene in scenes:

@@ -1,4 +1,4 @@
-"""Write output files completely or not at all: first under a temporary name, then renamed.
+"""Write output files atomically, completely or not at all: first under a temporary name, then renamed.
 
 The old file stays complete until the new one is; a full disk, a limit or Ctrl-C leaves nothing behind. The temporary
 name is random and opened exclusively within the opened folder, so that nothing outside it is written. A link in the

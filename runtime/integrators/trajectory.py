@@ -56,7 +56,11 @@ EPSILON = float(np.finfo(np.float64).eps)
 
 @cache
 def build_event_dtype(n: int, n_discrete_states: int, n_clearances: int) -> np.dtype[Any]:
-    """Return NumPy's type of a user event with its state: y is q, v (n each) and the works; cached by sizes."""
+    """Return NumPy's type of a user event with its state; cached by sizes (functools).
+
+    Fields: `event` (its number), `t` (s), `y` (q and v, n each, and the works), `memory` (discrete states), `state`
+    (contact code of each joint with play).
+    """
     state_fields = [
         ("y", "f8", (2 * n + N_WORK,)),
         ("memory", "f8", (n_discrete_states,)),

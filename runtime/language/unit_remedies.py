@@ -392,11 +392,13 @@ def _is_power(power: Fraction) -> bool:
 
 
 def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]]) -> str:
-    """Return a number times factors as an expression that the parser accepts.
+    """Return a number times factors as an expression that the parser accepts; "pi" stays a factor of its own.
 
-    factors: pairs of a meaning (number, listed unit) and its power.
+    factors: pairs of a meaning (scale, listed unit) and its power. The scale of a meaning with power 1 is multiplied
+    into the number: 5 t is 5000 kg. With other powers, a scale other than 1 stays in parentheses: `(1000 kg)**2`.
+    Powers that units cannot have in the list, such as fractions, are written as `(1 UNIT)**POWER`.
     """
-    scale, above, below, suffix = Decimal(1), list[str](), list[str](), ""
+    scale, numerator, denominator, suffix = Decimal(1), list[str](), list[str](), ""
     for (times, symbol), power in factors:
         if times != 1 and power != 1:
             base, operator = f"({times} {symbol})", "/" if power < 0 else " * "
@@ -413,14 +415,14 @@ def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], F
                 suffix += f" * (1 {unit})**{_format_power(exponent)}"
             else:
                 unit_text = unit + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
-                (above if exponent > 0 else below).append(unit_text)
+                (numerator if exponent > 0 else denominator).append(unit_text)
     value = number
     if scale != 1:
         scale *= 1 if number == "pi" else Decimal(number)
         scaled = f"{scale.normalize():{'f' if Decimal('1e-5') < scale < Decimal('1e7') else 'e'}}"
         value = f"pi * {scaled}" if number == "pi" else scaled
-    written = "*".join(above) or ("1" if below else "")
-    return " ".join(filter(None, (value, "/".join([written, *below])))) + suffix
+    written = "*".join(numerator) or ("1" if denominator else "")
+    return " ".join(filter(None, (value, "/".join([written, *denominator])))) + suffix
 
 
 def _format_power(power: Fraction) -> str:

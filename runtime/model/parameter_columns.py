@@ -78,7 +78,12 @@ class ParameterColumns:
         self.struct = self._make_struct(np.array(targets, np.int_).reshape(-1, 2))
 
     def _make_struct(self, targets: NDArray[np.int_]) -> Any:
-        """Return C's struct ParameterTable, whose arrays this object owns; `targets`: see calls.h."""
+        """Return C's struct ParameterTable, whose arrays this object owns.
+
+        `targets` (N, 2): column of a value, and index in the given values at which it is written. The struct also has
+        the given values, and the constraints of parameters: bounds of each, and relations to sums of other parameters
+        (terms).
+        """
         lower, upper, relations = collect_conditions(self.source)
         ends = np.cumsum([0, *(len(terms) for _, terms, _ in relations)]).tolist()
         rows = [

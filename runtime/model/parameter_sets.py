@@ -69,7 +69,8 @@ class Columns(Sequence[Mapping[str, Any]]):
     def collect_nonfinite_values(self) -> dict[int, BadValueError]:
         """Return an error for each run with values that are NaN or infinite, by index in rising order.
 
-        The names of these values are stored in `omitted_names`, and readers of the columns skip them.
+        The names of these values are recorded in `omitted_names`, and readers of the columns skip them. The columns
+        stay.
         """
         errors: dict[int, BadValueError] = {}
         for name, column in self.columns.items():
@@ -207,9 +208,10 @@ def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float |
 def read_each_run(
     parameter_sets: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
 ) -> Any:
-    """Return values and mask (n_runs, n_parameters) by calling `read_run`(i, mapping of run i) for each run.
+    """Return the parameters of all runs: values (n_runs, n_parameters), and a mask, True where a value is given.
 
-    Raises BadValueError, which names the run.
+    `read_parameters`(i, mapping of run i) is called for each run and returns one row of both. Raises BadValueError,
+    which names the run.
     """
     pairs = []
     for i, parameter_set in enumerate(parameter_sets):

@@ -58,9 +58,10 @@ class Lyapunov:
 
     @cached_property
     def series(self) -> Array:
-        """The exponent in 1/s as estimated up to t[1:], (k,): the regression slope of the logarithm of the growth.
+        """The running exponent in 1/s, as estimated up to each of t[1:], (k,).
 
-        It is NaN during the first tenth of the time, while the difference turns to the direction of largest growth.
+        It is the regression slope of the logarithm of the growth. It is NaN during the first tenth of the time, while
+        the difference turns to the direction of largest growth.
         """
         exponents = np.full(len(self.growth), np.nan)
         exponents[self._first :] = _compute_regression_slopes(self.t[self._first :], self._logs[self._first :])

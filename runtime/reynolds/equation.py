@@ -166,14 +166,14 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
 
 
 def _compute_density(phi: Array, eps: float) -> Array:
-    """Return the derivative of `_compute_uniform_angle` with respect to φ, the relative density of the nodes."""
+    """Return the relative density of the nodes, the derivative of `_compute_grid_coordinate` with respect to φ."""
     return np.asarray(
         UNIFORM_FRACTION + (1.0 - UNIFORM_FRACTION) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi))
     )
 
 
 def _compute_uniform_angle(phi: Array, eps: float) -> Array:
-    """Return the variable in which the nodes are equidistant, for angles φ at eccentricity ratio ε.
+    """Return the stretched grid coordinate, in which the nodes are equidistant, for angles φ at eccentricity ratio ε.
 
     It is the mean of φ and of Sommerfeld's angle γ: (1 + ε cos φ)(1 − ε cos γ) = 1 − ε², dγ = √(1 − ε²)/h dφ.
     """
@@ -186,7 +186,7 @@ def _compute_uniform_angle(phi: Array, eps: float) -> Array:
 
 
 def _invert_uniform_angle(values: Array, eps: float) -> Array:
-    """Return the angles φ at which `_compute_uniform_angle` has these values.
+    """Return the angles φ at which the grid coordinate (`_compute_grid_coordinate`) has these values.
 
     Safeguarded Newton's method: the bracket is bisected if a step leaves it or is more than half of the last one. Both
     variables differ by at most π. For ε → 1 the slope nearly jumps, so that Newton's method alone may cycle.

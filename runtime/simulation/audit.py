@@ -374,8 +374,10 @@ def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> N
 def list_inapplicable_checks(source: KernelSource, method: str) -> set[str]:
     """Return the names of the sample checks that do not apply to the scene with this method.
 
-    In scenes with a body without mass, or with undetermined reactions, forces and powers are not known. With rk4 in the
-    full formulation the constraint equations drift, so that their checks, power and the balance of bodies do not apply.
+    - "body" (balance of each body), "power" and "torque" if any body has no mass, or if reactions are undetermined:
+      forces and powers are then not known.
+    - "rows" (constraint equations), "rates" (their rates), and "power" and "body", which are computed from them, with
+      rk4 in the full formulation: the constraint equations then drift.
     """
     names = set[str]()
     if source.massless_bodies or source.indeterminate:

@@ -63,10 +63,17 @@ def add_horizon(simulation: Simulation, run: Result, progress: Progress | None =
 def compute_horizon(
     simulation: Simulation, run: Result, progress: Progress | None = None, max_difference: float = MAX_PATH_DIFFERENCE
 ) -> float:
-    """Return the time (s) up to which a run agrees with its perturbed repetitions; infinity if it does so to its end.
+    """Return the time (s) up to which three repetitions of a run agree; infinity if they do so to its end.
 
-    The repetitions use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error
-    ends is compared as far as it came. Kinematic scenes have infinity. `max_difference`: largest difference, as in the
+    The repetitions are compared with each other, not with the samples of `run`:
+
+    - the same settings and start;
+    - a tighter tolerance, or a shorter step (RTOL_RATIO, STEP_RATIO);
+    - a start perturbed by PERTURBATION.
+
+    The repetitions use `run.diagnostics.method`, from the run's start to its last sample. The compared times are those
+    of `_yield_compared_times`. A repetition that an error ends is compared as far as it came. Kinematic scenes have
+    infinity. `max_difference`: largest difference, as in the
     head of this file. Ctrl-C is passed on. `progress` None: nothing is reported.
     """
     begin, t1 = build_start_state(run), float(run.t[-1])

@@ -124,13 +124,15 @@ def _copy_similar_states(source: KernelSource, given_states: list[Any]) -> list[
     return copies
 
 
-def _check_discrete_states(source: KernelSource, state: Array, discrete_states: Array) -> None:
+def _check_discrete_states(source: KernelSource, contact_codes: Array, discrete_states: Array) -> None:
     """Raise BadValueError if contact codes and discrete states of a state contradict each other.
 
-    Closed contacts need a finite approach speed, open ones NaN. Internal states and friction modes are checked too.
+    `contact_codes` and `discrete_states` are the arrays `state` and `memory` of a State. Closed contacts need a finite
+    approach speed, open ones NaN. Internal states must be finite, or NaN while their joint is free. Friction modes must
+    not be infinite; nothing else of them is checked.
     """
     for k, (joint, code, rate) in enumerate(
-        zip(source.clearances, state.tolist(), discrete_states.tolist(), strict=False)
+        zip(source.clearances, contact_codes.tolist(), discrete_states.tolist(), strict=False)
     ):
         if code == FREE and not math.isnan(rate):
             message, expected = f"is {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
@@ -141,8 +143,8 @@ def _check_discrete_states(source: KernelSource, state: Array, discrete_states: 
         raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=HINT_FINAL)
     first = len(discrete_states) - len(source.internal_states)
     for k, (name, z) in enumerate(zip(source.internal_states, discrete_states[first:].tolist(), strict=True), first):
-        joint_of = (k - first) * len(state) // max(len(source.internal_states), 1)
-        if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
+        joint_of = (k - first) * len(contact_codes) // max(len(source.internal_states), 1)
+        if name and not math.isfinite(z) and not (math.isnan(z) and contact_codes[joint_of] == FREE):
             message = f"start.memory[{k}], the internal state {name}, is {z:g}: expected a length (m), NaN while free"
             raise BadValueError(message, hint=HINT_FINAL)
     if np.isinf(discrete_states).any():

@@ -50,7 +50,7 @@ class SampleReader:
             self._set_columns([pointer for pointer, _ in pointers])
 
     def _set_columns(self, pointers: Sequence[Any]) -> None:
-        """Set what C reads of a run: the columns of series, and the pointers to evaluated quantities.
+        """Set the fields of the struct RepeatedRun that C reads: columns of series, pointers to evaluated quantities.
 
         Series that Python must compute are stored in `_computed`, with their positions.
         """

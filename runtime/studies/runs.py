@@ -273,8 +273,12 @@ def compare_runs(run: Result, reference: Result) -> Error:
 def compute_differences(run: Result, reference: Result) -> tuple[Array, Array, Array]:
     """Return the differences in motion, path and force, scaled as in `Error`, at every common sample, (N,) each.
 
+    - motion: of coordinates, lengths divided by the mechanism's size;
+    - path: of eccentricity vectors, divided by the clearance; 0 without play;
+    - force: of joint forces, divided by the peak force of `reference`; 0 if `reference` has no force.
+
     Each is the maximum over the coordinates or joints. The sample interval of `run` is a whole multiple of that of
-    `reference`. Path is 0 without play, force is 0 if `reference` has no force.
+    `reference`.
     """
     stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
     count = min(len(run.t), (len(reference.t) - 1) // stride + 1)

@@ -63,7 +63,10 @@ def select_limits(setting: Setting) -> Limits:
 
 @dataclass(frozen=True)
 class Cell:
-    """Verdict on one run: a method with its step or tolerance, and the parameters that differ from the file."""
+    """Verdict on one run, a point of a stability map: a method with its step or tolerance, and parameters.
+
+    The parameters are those that differ from the file.
+    """
 
     setting: Setting
     parameters: Parameters  # arguments of `simulate` that repeat the run
@@ -97,6 +100,12 @@ def judge_runs(
 ) -> Cell:
     """Return the cell of a setting: diverged, inaccurate, outside the model or stable, with the reason of its worst
     fault.
+
+    Faults in order of precedence, of which the first decides (`_find_faults`):
+
+    - diverged: journal through its bearing, energy not conserved, missed contact, a failed run over a short window;
+    - inaccurate or outside the model: penetration too deep for the contact law, inaccurate if a finer run has less;
+    - inaccurate: constraints violated, a finer run failed, or energy residual, motion, force or path above its limit.
 
     long_run: the run over the long window. run_pairs: over short windows, a run with the same setting and a finer one;
     failed ones do not count for the error. A failed long run is judged alone: it is "outside the model" if it left the

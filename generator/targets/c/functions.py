@@ -329,8 +329,8 @@ def find_unused_branch_arguments(
 ) -> list[str]:
     """Return which of the arguments `branch` and `g` are unused, so that the C function must cast them to void.
 
-    An argument is unused if no statement reads it. The list is empty if any of the called functions has switching
-    functions, since such a call passes both.
+    `branch`: the frozen branches; `g`: the values of the switching functions. An argument is unused if no statement
+    reads it. The list is empty if any of the called functions has switching functions, since such a call passes both.
     """
     names_read = NO_NAMES.union(*(line.reads for line in statements))
     has_switches = any(call.first_switch is not None for call in calls)

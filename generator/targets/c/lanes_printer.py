@@ -224,9 +224,10 @@ def print_statements(statements: Sequence[Statement]) -> str:
 def print_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors without a status.
 
-    Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots, are left out. The
-    function marks lanes that it cannot compute in `needs_scalar`, an argument that a kernel with guards or sines must
-    have.
+    Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots, are left out.
+    `Guard` (test of a pivot) and `Sines` (sines and cosines of several angles) mark lanes that they cannot compute in
+    the argument `needs_scalar` (_FALLBACK_MASK). A kernel with such lines must have this argument, which is not tested
+    here; `print_kernel_with_fallback` adds it.
     """
     lane_sections = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _SINGLE_RUN_LINES)))

@@ -260,7 +260,10 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
 
 def is_normal(number: sp.Expr) -> bool:
-    """Return whether a number is in the range of normal doubles (binary64), or 0; `split_number` splits others."""
+    """Return whether a number is in the range of normal doubles (binary64), or 0; `split_number` splits others.
+
+    Integers below 1e15 are not converted. The function of this name in C (engine/scene/functions.h) is false for 0.
+    """
     return (
         number.is_Integer
         and abs(int(number)) < 10**15

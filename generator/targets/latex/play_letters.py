@@ -141,8 +141,10 @@ RATIO, CLIPPED = Formula(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇�
 def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Formula]:
     """Return {symbol: name} of the variables of a joint with play, from eccentricity to force (contact_steps.py).
 
-    Forces and moments have the index d (dry) or f (film) if the joint has both. At a corner of a slider at a wall, the
-    moment on the guide has one name for the dry contact and one for the total.
+    Forces and moments have the index d (dry) or f (film) if the joint has both; only such a joint has a name for
+    `share`. With a contour, the normal force F_N is named F_n, and the result F_n of the normal law, along the gradient
+    of δ, is named F_delta. At a corner of a slider at a wall, the moment of the dry contact on the guide is named M_i,t
+    and the total moment M_i.
     """
     step_names = {**NAMES, ratio: CLIPPED if clearance.clip_ratio else RATIO}
     parts = [part for part in _PARTS if getattr(clearance, "film" if part == "film" else "normal") is not None]

@@ -80,7 +80,7 @@ def format_caption(run: Result) -> str:
 def compute_orbit_half_width(run: Result, joint: str) -> float:
     """Return half the side of a square that contains a journal's orbit and its clearance circle, in units of c.
 
-    It is at least 1.04.
+    It is 1.04 (a margin of 4 %) times the larger of 1 and the largest radius of the orbit divided by c.
     """
     _, x, y = joint_curves.get_journal_path(run, joint)
     return 1.04 * max(1.0, find_largest_magnitude(np.hypot(x, y)) / run.constants[f"{joint}.c"])
@@ -298,7 +298,8 @@ def _format_time_axis(ax: Axes, y_label: str, times: Sequence[Any], is_last_row:
 def _wrap_label(ax: Axes, label: str) -> str:
     """Return a y label with line breaks, such that its lines are no longer than the height of its axes.
 
-    Too long words are broken before their dots.
+    The length of a line is estimated from the font size and the rows of the grid, without a renderer; at least 8
+    characters fit. Too long words are broken before their dots.
     """
     spec = ax.get_subplotspec()
     n_spanned = spec.rowspan.stop - spec.rowspan.start if spec else 1

@@ -228,7 +228,9 @@ def save(run: Result, path: str | os.PathLike[str], user_attributes: Mapping[str
 
 
 def _check_attributes(user_attributes: Any, root: Table) -> dict[str, str]:
-    """Return the user's attributes as texts. Raises BadValueError for reserved, long or unprintable names."""
+    """Return the user's attributes. Raises BadValueError for values that are not texts, and for names that are reserved
+    or of `root`, empty, too long or unprintable.
+    """
     checked = {}
     for name, value in check_mapping(user_attributes, "attributes", "{name: text}").items():
         if not 0 < len(name) <= MAX_ATTRIBUTE_NAME or not name.isprintable() or name in root.attributes:
@@ -386,7 +388,12 @@ def read_events(file: File, source: KernelSource) -> Array:
 
 
 def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
-    """Return impacts or events as an array of `dtype`; empty without a group. Raises ValueError for unknown names."""
+    """Return impacts or events as an array of `dtype`; empty without a group.
+
+    `kind`: "impact" or "event". `names`: the joints or events of the scene, whose indices are the first field of
+    `dtype`. Files of the old format (`is_old`) store these indices, others store names. Raises ValueError for unknown
+    ones.
+    """
     owner_column, *other_columns = dtype.names or ()
     if not file.has_entry(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)

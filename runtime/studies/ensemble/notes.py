@@ -69,8 +69,8 @@ def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[s
     """Collect the warnings about assembled starts that deviate from their guesses, in place of a warning for each
     block.
 
-    It yields an empty table, which is filled at the end of the context: a note for each coordinate. first_run: index of
-    the first run of the block, which is the example of the notes.
+    The value of the context is an empty table, which is filled at the end of the context: a note for each coordinate.
+    first_run: index of the first run of the block, which is the example of the notes.
     """
     deviations_by_run: list[Mapping[str, float]] = []
     notes: dict[str, Note] = {}
