@@ -74,9 +74,9 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
     gudgeon_run_start(run, batch->p_motion + i * batch->numbers, t0, y,
         batch->initial_discrete_states + i * AT_LEAST_ONE(N_DISCRETE));
     run->run_number = i + 1;
-    gudgeon_run_record(run, step_record.rows, step_record.capacity);
+    gudgeon_run_set_record_buffer(run, step_record.rows, step_record.capacity);
     restore_compression_flags(run, batch->codes + i * AT_LEAST_ONE(N_CLEARANCES));
-    gudgeon_run_stop(run, batch->stop);
+    gudgeon_run_enable_end_events(run, batch->stop);
     start_audit(run, batch->audit, batch->size[i]);
     if (batch->envelope)
         start_envelope(run, (EnvelopeRow *)batch->envelope + i * batch->envelope_capacity, batch->envelope_capacity);
@@ -169,7 +169,7 @@ static void end_run(const Batch *batch, long i, int status, Integrator *run)
         batch->audit_locations + N_CHECKS * i);
     gudgeon_run_report(run, batch->t_last + i, batch->counts + N_COUNTS * i, batch->residuals + N_RESIDUALS * i,
         batch->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
-    report_progress(run, batch->time_gain + i, batch->monitored_steps + 2 * i, batch->ended + N_STEP_ENDS * i);
+    report_stall_monitor(run, batch->time_gain + i, batch->monitored_steps + 2 * i, batch->ended + N_STEP_ENDS * i);
     if (batch->envelope)
         batch->n_envelope_rows[i] = count_envelope_rows(run);
     if (first_nonfinite)

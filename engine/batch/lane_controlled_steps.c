@@ -97,7 +97,8 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
     const Lanes force_at_ends =
         lanes_max_of(compute_largest_film_force(&step->rhs), compute_largest_film_force(&lanes->rhs));
     return compute_relative_film_error(lanes, step, rate, dy,
-        lanes_max_of(force_at_ends, compute_largest_film_force(&rhs)), FILM_PART) / local_steps->limits.film_error;
+        lanes_max_of(force_at_ends, compute_largest_film_force(&rhs)), FILM_SCALE_FRACTION)
+        / local_steps->limits.film_error;
 }
 #endif
 
@@ -266,7 +267,7 @@ static void choose_lane_lengths(LaneLocalSteps *local_steps, const LaneIntegrato
  * method (explicit or stiff): h_rho is outside min_rho..max_rho of the limits. 0 where it is within. This stiffness
  * detection decides the switch of the method (switch_method_after_step()).
  */
-static Lanes count_opposing_steps(const LaneLocalSteps *local_steps, Lanes h_rho)
+static Lanes count_steps_for_method_switch(const LaneLocalSteps *local_steps, Lanes h_rho)
 {
     const LaneBits is_against = (h_rho < local_steps->limits.min_rho) | (h_rho > local_steps->limits.max_rho);
     return select_value(is_against, local_steps->n_opposing + 1.0, broadcast(0.0));
@@ -287,7 +288,7 @@ static LaneBits accept_lane_local_steps(LaneLocalSteps *local_steps, LaneIntegra
     LaneBits accepted = requested & local_steps->may_accept & step->is_accepted;
     if (!any_of(accepted))
         return accepted;
-    const Lanes n_opposing = count_opposing_steps(local_steps, h_rho);
+    const Lanes n_opposing = count_steps_for_method_switch(local_steps, h_rho);
     const Lanes phi_max = lanes_max_of(step->residual[0], local_steps->phi_max);
     evaluate_lane_event_functions(lanes, &step->rhs, event_functions);
     accepted &= find_unsampled_steps(local_steps, lanes, step, t) & (step->h < local_steps->limits.max_length)

@@ -239,7 +239,7 @@ static void compute_film_errors(const LaneIntegrator *run, int method, LaneStep 
 {
     if (has_films() && any_of(step->is_accepted))
         step->film_error = compute_film_error_at_ends(run, step,
-            method == METHOD_RADAU5 ? &radau5_end_rates : &radau9_end_rates, FILM_PART);
+            method == METHOD_RADAU5 ? &radau5_end_rates : &radau9_end_rates, FILM_SCALE_FRACTION);
 }
 #endif
 

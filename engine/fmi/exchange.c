@@ -48,7 +48,7 @@ static int raise_nominals(Model *model)
     double mass[N_Q], absolute_state[N_S], energy = 0.0;
     int is_raised = 0;
     mass_matrix((const Parameters *)model->p, mass);
-    convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, absolute_state);
+    convert_integrated_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, absolute_state);
     for (int k = 0; k < N_Q; k++)
         energy += 0.5 * mass[k] * absolute_state[N_Q + k] * absolute_state[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
@@ -103,10 +103,10 @@ static void set_discrete_state_from_sample(Model *model)
 static void synchronize_states(Model *model)
 {
     if (model->exchange) {
-        convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
+        convert_integrated_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
     } else {
         set_discrete_state_from_sample(model);
-        convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
+        convert_absolute_to_integrated(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
     }
 }
 

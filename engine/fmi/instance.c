@@ -142,7 +142,7 @@ static fmi3Status begin_instance_run(Model *model)
     /* first the contacts and modes of friction at the start, then the run itself */
     for (int start = 1; start >= 0; start--) {
         gudgeon_run_start(model->run, model->motion, model->t, y, sampled_discrete);
-        gudgeon_run_stop(model->run, !start);
+        gudgeon_run_enable_end_events(model->run, !start);
         gudgeon_adaptive_setup(model->run, gudgeon_method(is_fine ? FMU_FIRST_METHOD_FINE : FMU_FIRST_METHOD),
             FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_METHOD_FINE : FMU_STIFF_METHOD) : 0, scale, min_scale,
             0.0);
@@ -155,7 +155,7 @@ static fmi3Status begin_instance_run(Model *model)
     model->extent = size;
     memset(&model->discrete, 0, sizeof model->discrete);
     read_discrete_state(model->sampled_discrete, &model->discrete);
-    convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
+    convert_absolute_to_integrated(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
     const int invalid = set_initial_nominals(model, min_scale);
     if (invalid)
         return log_error_with_status(model, "the motion cannot begin", invalid);

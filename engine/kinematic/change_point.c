@@ -115,7 +115,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
  */
 static int pass_change_point(KinematicRun *run, double t, const Position *start, Position *position)
 {
-    const double fastest = compute_angle_norm(start->v, run->extent);
+    const double fastest = compute_scaled_max_norm(start->v, run->extent);
     double d = PASS_NODE_ANGLE / fastest;
     int status = NEWTON_FAILED;
     if (!(fastest > 0.0) || !(fabs(t - start->t) <= PASS_NODES * d))
@@ -129,7 +129,7 @@ static int pass_change_point(KinematicRun *run, double t, const Position *start,
         interpolate_position(node, t, run->p, position);
         for (int k = 0; k < N_Q; k++)
             difference[k] = position->q[k] - interpolate_at_middle(node, PASS_NODES - 1, &node->q[k]);
-        if (compute_angle_norm(difference, run->extent) <= PASS_POSITION_TOL)
+        if (compute_scaled_max_norm(difference, run->extent) <= PASS_POSITION_TOL)
             return 0;
         status = NEWTON_FAILED;
     }
@@ -166,7 +166,8 @@ static int set_initial_position(KinematicRun *run, double t, const double *q, co
         return status;
     for (int k = 0; k < N_Q; k++)
         difference[k] = branch_position.v[k] - v[k];
-    if (!(compute_angle_norm(difference, run->extent) <= PASS_RATE_TOL * compute_angle_norm(position->v, run->extent)))
+    if (!(compute_scaled_max_norm(difference, run->extent)
+        <= PASS_RATE_TOL * compute_scaled_max_norm(position->v, run->extent)))
         return status;
     *position = branch_position;
     return 0;

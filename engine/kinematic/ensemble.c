@@ -201,13 +201,13 @@ static void end_kinematic_run(const KinematicBatch *batch, long i, KinematicRun 
 }
 
 /*
- * Compute n runs of a batch, whose indices are given, one after the other, in the memory `integrator`. Runs whose phase
+ * Compute n runs of a batch, whose indices are given, one after the other, in the memory `analysis`. Runs whose phase
  * is not NEW are skipped. If the batch is ending, the current run ends at once, and no run begins.
  */
-void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n, const long *indices)
+void gudgeon_kinematic_ensemble(const void *batch_data, void *analysis, long n, const long *indices)
 {
     const KinematicBatch *batch = batch_data;
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     for (long k = 0; k < n && !*batch->ending; k++) {
         if (batch->phase[indices[k]] != NEW)
             continue;

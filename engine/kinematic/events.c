@@ -397,11 +397,11 @@ static int find_events_in_interval(Search *search, double t1)
  * EVENT_STOPS after an event that ends the run, EVENTS_FULL if the capacity is used up, STOPPED, or the status of the
  * motion. An interval that is not complete is searched again by the next call.
  */
-int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
+int gudgeon_kinematic_events(void *analysis, long n, const double *t, const double *parameters, const double *q,
     const double *v, double run_begin, int can_stop, signed char *last_sign, long capacity, double *event_time,
     int *event, long *n_found, long *n_done)
 {
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     SampledPosition end[MAX_PART_HALVINGS + 2];
     Search search = {.run = run, .last_sign = last_sign, .t = event_time, .event = event, .capacity = capacity,
         .run_begin = run_begin, .can_stop = can_stop, .end = end};

@@ -27,7 +27,7 @@ static int solve_position_equations(const KinematicRun *run, double t, double *q
         const int status = project(t, q, phi, run->p, step);
         if (status)
             return status;
-        const double size = compute_angle_norm(step, run->extent);
+        const double size = compute_scaled_max_norm(step, run->extent);
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
         *correction += size;

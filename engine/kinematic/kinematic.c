@@ -14,36 +14,36 @@ size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
  * poll_interval s (0: at each step) and cancels the analysis if it returns nonzero.
  */
 void gudgeon_kinematic_begin(
-    void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
+    void *analysis, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
     double poll_interval)
 {
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     *run = (KinematicRun){.max_correction = max_correction, .extent = extent, .t_end = t_end};
     start_polling(&run->cancellation, poll, context, poll_interval);
 }
 
 /* Let the next call of gudgeon_kinematic() begin a new motion from its row 0, instead of resuming the old one. */
-void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->has_motion_begun = 0; }
+void gudgeon_kinematic_restart(void *analysis) { ((KinematicRun *)analysis)->has_motion_begun = 0; }
 
 /*
- * Return the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). time_advance:
- * time by which the last steps advanced, s. steps[0]: the number of these steps; steps[1]: 1 if they are far shorter
- * than earlier ones, 2 if their number grows exponentially with time, else 0. Called after a failure.
+ * Return the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun).
+ * advanced_time: time by which the last steps advanced, s. steps[0]: the number of these steps; steps[1]: 1 if they are
+ * far shorter than earlier ones, 2 if their number grows exponentially with time, else 0. Called after a failure.
  */
-void gudgeon_kinematic_progress(const void *integrator, double *t, double *time_advance, long *steps)
+void gudgeon_kinematic_progress(const void *analysis, double *t, double *advanced_time, long *steps)
 {
-    const KinematicRun *run = integrator;
+    const KinematicRun *run = analysis;
     t[0] = run->motion.t;
     t[1] = run->has_work_begun ? run->work.t : NAN;
-    *time_advance = run->monitor.gain;
+    *advanced_time = run->monitor.gain;
     steps[0] = MONITOR_STEPS;
     steps[1] = run->monitor.slowdown;
 }
 
 /* Return how many samples were interpolated at or near a change point; t: the time of the first one, s. */
-long gudgeon_kinematic_count_interpolated(const void *integrator, double *t)
+long gudgeon_kinematic_count_interpolated(const void *analysis, double *t)
 {
-    const KinematicRun *run = integrator;
+    const KinematicRun *run = analysis;
     *t = run->t_interpolated;
     return run->n_interpolated;
 }
@@ -53,18 +53,18 @@ long gudgeon_kinematic_count_interpolated(const void *integrator, double *t)
  * + 2 N_Q numbers). The next row is the first one; steps beyond `capacity` are not recorded before
  * gudgeon_kinematic_fetch_records() is called. NULL: stop recording.
  */
-void gudgeon_kinematic_set_recording(void *integrator, double *rows, long capacity)
+void gudgeon_kinematic_set_recording(void *analysis, double *rows, long capacity)
 {
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     run->step_record = rows;
     run->capacity = capacity;
     run->n_recorded = 0;
 }
 
 /* Return the number of rows recorded since the last call, and reset it: the next row overwrites the first one. */
-long gudgeon_kinematic_fetch_records(void *integrator)
+long gudgeon_kinematic_fetch_records(void *analysis)
 {
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     const long n = run->n_recorded;
     run->n_recorded = 0;
     return n;
@@ -91,7 +91,7 @@ static double get_larger_or_nan(double largest, double value)
  * Return the scaled maximum norm of a change or rate of q (N_Q), rad or rad/s; NaN is propagated. Lengths are divided
  * by the mechanism's size `extent`, m. Used for the works (works.c), for change points and for corrections.
  */
-static double compute_angle_norm(const double *change, double extent)
+static double compute_scaled_max_norm(const double *change, double extent)
 {
     double largest = 0.0;
     for (int k = 0; k < N_Q; k++)
@@ -249,10 +249,10 @@ static void accumulate_sample_statistics(KinematicRun *run, double t, const Posi
  * last complete row, whatever status is returned. Return 0 or a status; after EVENTS_FULL the caller fetches the
  * records and calls again.
  */
-int gudgeon_kinematic(void *integrator, long n, const double *t, const double *parameters, double *q, double *v,
+int gudgeon_kinematic(void *analysis, long n, const double *t, const double *parameters, double *q, double *v,
     double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     Position *position = &run->motion;
     run->p = (const Parameters *)parameters;
     *done = 0;

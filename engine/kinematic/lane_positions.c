@@ -20,9 +20,9 @@ static inline Lanes get_larger_or_nan(Lanes largest, Lanes value)
 
 /*
  * Return the maximum norm of a change or rate of q (N_Q) as an angle, rad or rad/s, in each lane; NaN is propagated.
- * Lengths are divided by the mechanism's size `extent` (m). The same as compute_angle_norm() of a single run.
+ * Lengths are divided by the mechanism's size `extent` (m). The same as compute_scaled_max_norm() of a single run.
  */
-static Lanes compute_angle_norm(const Lanes *change, Lanes extent)
+static Lanes compute_scaled_max_norm(const Lanes *change, Lanes extent)
 {
     Lanes largest = broadcast(0.0);
     for (int k = 0; k < N_Q; k++)
@@ -167,7 +167,7 @@ static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, cons
     const LanePosition *b, LaneBits is_accepted, Lanes *work)
 {
     const Lanes half = 0.5 * (b->t - a->t);
-    const Lanes speed = get_larger_or_nan(compute_angle_norm(a->v, extent), compute_angle_norm(b->v, extent));
+    const Lanes speed = get_larger_or_nan(compute_scaled_max_norm(a->v, extent), compute_scaled_max_norm(b->v, extent));
     Lanes velocity_defect[N_Q], interval_work[N_WORK], scale = broadcast(0.0);
     LaneBits is_irregular = {0};
     for (int k = 0; k < N_Q; k++)
@@ -190,9 +190,9 @@ static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, cons
         }
         for (int k = 0; k < N_Q; k++)
             velocity_defect[k] -= half * work_weight[i] * node.a[k];
-        scale = get_larger_or_nan(scale, half * compute_angle_norm(node.a, extent));
+        scale = get_larger_or_nan(scale, half * compute_scaled_max_norm(node.a, extent));
     }
-    const Lanes jump = compute_angle_norm(velocity_defect, extent);
+    const Lanes jump = compute_scaled_max_norm(velocity_defect, extent);
     const Lanes min_jump = MIN_VELOCITY_JUMP + VELOCITY_ROUNDING * speed;
     is_irregular |= ~(scale <= DBL_MAX) | ((jump > min_jump) & (jump > MIN_JUMP_RATIO * scale));
     is_irregular |= ~(lanes_fabs(interval_work[0]) <= DBL_MAX);

@@ -179,7 +179,7 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
  * Gather one lane: copy the first n rows of lane k in a column of the block to `values`, a result array of the lane's
  * run. The loop for n = BLOCK_ROWS has a fixed length.
  */
-static inline void copy_lane_column(const Lanes *column, int k, long n, double *values)
+static inline void gather_lane_column(const Lanes *column, int k, long n, double *values)
 {
     if (n == BLOCK_ROWS)
         for (int row = 0; row < BLOCK_ROWS; row++)
@@ -195,9 +195,9 @@ static void copy_lane_samples(const RunLanes *lanes, int k, long n)
     const KinematicBatch *batch = lanes->batch;
     const RunSamples *samples = &lanes->run[k]->samples;
     const long row = samples->index * batch->samples + samples->done;
-    copy_lane_column(lanes->block[0], k, n, samples->largest + samples->done);
+    gather_lane_column(lanes->block[0], k, n, samples->largest + samples->done);
     for (long j = 0; j < batch->n_series; j++)
-        copy_lane_column(lanes->block[j + 1], k, n, batch->values[j] + row);
+        gather_lane_column(lanes->block[j + 1], k, n, batch->values[j] + row);
 }
 
 /*

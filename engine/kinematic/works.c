@@ -48,9 +48,9 @@ static int integrate_work(
         }
         for (int k = 0; k < N_Q; k++)
             velocity_defect[k] -= half * work_weight[i] * node_position.a[k];
-        scale = get_larger_or_nan(scale, half * compute_angle_norm(node_position.a, run->extent));
+        scale = get_larger_or_nan(scale, half * compute_scaled_max_norm(node_position.a, run->extent));
     }
-    const double jump = compute_angle_norm(velocity_defect, run->extent);
+    const double jump = compute_scaled_max_norm(velocity_defect, run->extent);
     /* or an acceleration is undefined: the slope of a rate is unbounded */
     *has_jump = !(scale <= DBL_MAX) || (jump > min_jump && jump > MIN_JUMP_RATIO * scale);
     return 0;
@@ -112,8 +112,8 @@ static int integrate_work_over_jumps(
 static int integrate_work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {
     int halvings = MAX_SPLITS;
-    const double speed = get_larger_or_nan(compute_angle_norm(a->v, run->extent),
-        compute_angle_norm(b->v, run->extent));
+    const double speed = get_larger_or_nan(compute_scaled_max_norm(a->v, run->extent),
+        compute_scaled_max_norm(b->v, run->extent));
     return integrate_work_over_jumps(run, a, b, MIN_VELOCITY_JUMP + VELOCITY_ROUNDING * speed, &halvings, work);
 }
 
@@ -122,10 +122,10 @@ static int integrate_work_of_step(KinematicRun *run, const Position *a, const Po
  * again from the first sample q, v, or from the end of the last call. done: the last complete row. Return 0 or a
  * status. After NOT_FINITE, gudgeon_kinematic_progress() returns the time of the undefined power.
  */
-int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *parameters, const double *q,
+int gudgeon_kinematic_works(void *analysis, long n, const double *t, const double *parameters, const double *q,
     const double *v, double *work, long *done)
 {
-    KinematicRun *run = integrator;
+    KinematicRun *run = analysis;
     Position position = run->work;
     run->p = (const Parameters *)parameters;
     *done = 0;

@@ -328,7 +328,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     if (!status && run->t == t_end)
         status = record_user_events_at_run_end(run, 0.0, p);
     if (AUDITS && (!status || status == ENDED))
-        status = audit_state(run, n_listed, p) ? AUDITED : status;
+        status = check_step_end(run, n_listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
         append_step_end_row(run, has_jump, status == ENDED || run->t == t_end, p);
     allow_stop(&run->cancellation);

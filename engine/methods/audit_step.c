@@ -178,7 +178,7 @@ static void check_interior_point(Integrator *run, Step *step, double theta, int 
     check_interior_state(run, step, theta, is_random, y, dy, &rhs, p);
     if (!is_random)
         return;
-    convert_to_absolute(t, y, &run->discrete, p, absolute_state);
+    convert_integrated_to_absolute(t, y, &run->discrete, p, absolute_state);
     check_constraints(run, t, absolute_state, !RATE_JUMPS, p);
     if (is_branch_consistent(run, &rhs))
         check_accelerations(run, t, step->h, y, dy, absolute_state, p);

@@ -107,7 +107,7 @@ static int initialize_run_at_start(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
         double absolute_state[N_S];
-        convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+        convert_integrated_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
         if (has_drive_jump(run->t, absolute_state, absolute_state + N_Q, p))
             project_state(run, get_time_just_after(run->t), run->y, p);
     }

@@ -58,7 +58,7 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
         return -1.0;
     interpolate_rates(step, theta, 2 * N_X, rate);
     return compute_relative_film_error(run, step, rate, dy, max_of(min_force, compute_largest_film_force(&rhs)),
-        FILM_PART);
+        FILM_SCALE_FRACTION);
 }
 
 /*
@@ -96,16 +96,16 @@ static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step,
 /*
  * Return the error of film forces at both ends of a step in multiples of its limit, without evaluating a right-hand
  * side, by compute_film_error_at_ends(). Return 0 for explicit methods and without films. scale_fraction: fraction of
- * the largest acceleration that is the smallest scale of the error. For scale_fraction = FILM_PART, lanes with a Radau
- * method have computed it. It does not replace measure_film_error(), which evaluates the state inside the step and was
- * measured up to 37 times as large, for errors far below the limit.
+ * the largest acceleration that is the smallest scale of the error. For scale_fraction = FILM_SCALE_FRACTION, lanes
+ * with a Radau method have computed it. It does not replace measure_film_error(), which evaluates the state inside the
+ * step and was measured up to 37 times as large, for errors far below the limit.
  */
 static double estimate_film_error_at_ends(const Integrator *run, const Step *step, double scale_fraction)
 {
     if (!step->method->stiff || !has_films())
         return 0.0;
     const int is_computed_in_lane =
-        step->stage_values_lane && step->method->lane_method >= METHOD_RADAU5 && scale_fraction == FILM_PART;
+        step->stage_values_lane && step->method->lane_method >= METHOD_RADAU5 && scale_fraction == FILM_SCALE_FRACTION;
     return (is_computed_in_lane ? step->film_error
         : compute_film_error_at_ends(run, step, step->method->end_rates, scale_fraction))
         / compute_film_error_limit(run);
@@ -130,8 +130,8 @@ static int can_skip_film_error(const Integrator *run, const Step *step, double e
 
 /*
  * Return whether a step passes over a film force that decays or rises at its beginning, so that it must be shortened.
- * end_error: result of estimate_film_error_at_ends() with FILM_PART; if it exceeds 1, it must also exceed 1 with a
- * scale_fraction of 1.
+ * end_error: result of estimate_film_error_at_ends() with FILM_SCALE_FRACTION; if it exceeds 1, it must also exceed 1
+ * with a scale_fraction of 1.
  */
 static int has_unresolved_film_force(const Integrator *run, const Step *step, double end_error)
 {

@@ -400,7 +400,7 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
     if (trial_status == STOPPED || is_fixed)
         return 1;
     const int is_within_tolerance = !trial_status && step->error <= run->control.max_accepted_error;
-    const double end_error = is_within_tolerance ? estimate_film_error_at_ends(run, step, FILM_PART) : 0.0;
+    const double end_error = is_within_tolerance ? estimate_film_error_at_ends(run, step, FILM_SCALE_FRACTION) : 0.0;
     if (is_within_tolerance && !can_skip_film_error(run, step, end_error)) {
         const double error = measure_film_error(run, step, p);
         if (!(error > FILM_ERROR_RATIO * attempt->film_error_norm)) /* not rounding */

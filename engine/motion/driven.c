@@ -75,7 +75,7 @@ static void extrapolate_singular_loops(
  * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y; driven loops are
  * solved at time t. If they cannot be solved, they are extrapolated (extrapolate_singular_loops()).
  */
-void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+void convert_integrated_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
 {
     TreeState tree;
@@ -92,8 +92,8 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
  * `absolute_state`. The driven loops are solved at time t and stored in `discrete`; later times are solved from there.
  * A failure is stored in discrete->accepted_loops.failed.
  */
-void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
-    double *y)
+void convert_absolute_to_integrated(double t, const double *absolute_state, DiscreteState *discrete,
+    const Parameters *p, double *y)
 {
     TreeState tree;
     reduce_state(t, absolute_state, absolute_state + N_Q, p, tree.q, tree.v);

@@ -26,7 +26,7 @@ void gudgeon_expand(double t, const double *q, const double *v, const double *p,
 {
     DiscreteState discrete_state = {0};
     TreeState tree = {0};
-    solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
+    build_tree_state_from_call(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     expand(t, tree.q, tree.v, (const Parameters *)p, all_q, all_v);
 }
 
@@ -51,7 +51,7 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
     RhsOutputs rhs;
     TreeState tree;
     read_discrete_state(discrete, &discrete_state);
-    int status = solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
+    int status = build_tree_state_from_call(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     if (status)
         return status;
     status = reduced_dynamics(t, tree.q, tree.v, &discrete_state, (const Parameters *)p, a, &rhs);
@@ -70,7 +70,7 @@ void gudgeon_closures(double t, const double *q, const double *v, const double *
 {
     DiscreteState discrete_state = {0};
     TreeState tree = {0};
-    solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
+    build_tree_state_from_call(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     closures(t, tree.q, (const Parameters *)p, phi);
     closure_rates(t, tree.q, tree.v, (const Parameters *)p, phi_dot);
 }
@@ -83,7 +83,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 {
     DiscreteState discrete_state = {0};
     TreeState tree;
-    const int status = solve_tree_state(t, q, q, &discrete_state, (const Parameters *)p, &tree);
+    const int status = build_tree_state_from_call(t, q, q, &discrete_state, (const Parameters *)p, &tree);
     return status ? status : reduced_project(t, tree.q, r, (const Parameters *)p, x);
 }
 
@@ -92,14 +92,14 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
  * Compute the tree accelerations a by the absolute equations, those of all bodies, at any state; for tests. Return 0 or
  * a status. The engine uses this fallback only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
  */
-int gudgeon_absolute_fallback(
+int gudgeon_accelerations_by_absolute_equations(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
     DiscreteState discrete_state = {0};
     RhsOutputs rhs;
     TreeState tree;
     read_discrete_state(discrete, &discrete_state);
-    const int status = solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
+    const int status = build_tree_state_from_call(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     return status ? status
         : solve_by_absolute_equations(t, tree.q, tree.v, &discrete_state, (const Parameters *)p, a, &rhs);
 }

@@ -21,7 +21,7 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
 }
 
 /* Copy the integrated state y to the state of all bodies, (q, v, works) in `absolute_state`: both are the same. */
-void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+void convert_integrated_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
 {
     (void)t, (void)discrete, (void)p;
@@ -30,8 +30,8 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 }
 
 /* Copy the state of all bodies, (q, v, works) in `absolute_state`, to the integrated state y: both are the same. */
-void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
-    double *y)
+void convert_absolute_to_integrated(double t, const double *absolute_state, DiscreteState *discrete,
+    const Parameters *p, double *y)
 {
     (void)t, (void)discrete, (void)p;
     for (int k = 0; k < N_S; k++)

@@ -20,7 +20,7 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
 /*
  * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y in tree coordinates.
  */
-void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+void convert_integrated_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
 {
     (void)discrete;
@@ -34,8 +34,8 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
  * in `absolute_state`. Works are copied; internal states of laws in y are left unchanged. discrete: not used here, but
  * by the version for scenes with driven loops (motion/driven.c).
  */
-void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
-    double *y)
+void convert_absolute_to_integrated(double t, const double *absolute_state, DiscreteState *discrete,
+    const Parameters *p, double *y)
 {
     (void)discrete;
     reduce_state(t, absolute_state, absolute_state + N_Q, p, y, y + N_X);

@@ -50,7 +50,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
  * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
  * engine uses this fallback only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().
  */
-int gudgeon_absolute_fallback(
+int gudgeon_accelerations_by_absolute_equations(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
     DiscreteState discrete_state = {0};

@@ -2,8 +2,8 @@
  * The audit of a run: checks of accepted steps by equations that the integration does not use. Each check compares a
  * value with a limit that follows from the tolerance. A value above AUDIT_FAILS limits ends the run (AUDITED).
  *
- * This file owns the checks of one state; audit_state() calls them at the end of each step. methods/audit_step.c checks
- * the inside of steps. The audit changes only its own record.
+ * This file owns the checks of one state; check_step_end() calls them at the end of each step. methods/audit_step.c
+ * checks the inside of steps. The audit changes only its own record.
  */
 #define AUDIT_MIN_PENETRATION 4e-13      /* m: contacts with less penetration carry a negligible force */
 #define AUDIT_MAX_DEPTH 10.0       /* tolerances: allowed violation of a gap, or of a slip in its mode */
@@ -163,7 +163,7 @@ static double compute_neighbouring_states(const Integrator *run, double t, const
         }
         for (int k = 2 * N_X; k < N_Y; k++)
             state[k] = y[k];
-        convert_to_absolute(side ? after : before, state, &run->discrete, p, neighbours[side]);
+        convert_integrated_to_absolute(side ? after : before, state, &run->discrete, p, neighbours[side]);
     }
     return after - before;
 }
@@ -191,7 +191,7 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
             ? y[k] + AUDIT_CLOSURE_TOL * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random_number(&run->audit) - 1.0)
             : y[k];
     const double t_perturbed = N_DEPENDENT ? t * (1.0 - AUDIT_LOOP_ULPS * DBL_EPSILON) : t;
-    convert_to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
+    convert_integrated_to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
     if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)

@@ -5,7 +5,7 @@
  * First, a zero in the step is not in the list of events: one that check_event_zeros() found (has_zero), or, at the
  * event that ends the step, a value that falls below AUDIT_ZERO_FRACTION of its size before. Second, rounding around
  * zero is listed as AUDIT_WRONG_STEPS successive events. n_events_before: number of events in the list before the step.
- * Clears has_zero, and was_nonzero_since_event after a listed event. Called by audit_state() for each user-defined
+ * Clears has_zero, and was_nonzero_since_event after a listed event. Called by check_step_end() for each user-defined
  * event.
  */
 static void check_user_event(Integrator *run, int event, int n_events_before)
@@ -72,7 +72,7 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
  * - user-defined events. n_events_before: number of events in the list before the step.
  * Return 0, also if the audit is off, or AUDITED once any check has failed.
  */
-static int audit_state(Integrator *run, int n_events_before, const Parameters *p)
+static int check_step_end(Integrator *run, int n_events_before, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (!audit->level)
@@ -81,7 +81,7 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
     check_gaps(run, run->t, &run->rhs, p);
 #if N_DEPENDENT
     double absolute_state[N_S];
-    convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    convert_integrated_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     check_constraints(run, run->t, absolute_state, 0, p);
 #endif
     check_forces_of_open_joints(run);

@@ -309,7 +309,7 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;
     if (!status)
-        status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p)
+        status = switch_index >= 0 && friction < 0 ? complete_branch_change(run, switch_index, p)
             : update_branches_at_current_state(run, -1, p);
     if (!status && switch_index >= 0)
         status = update_branches_after_event(run, friction < 0 ? switch_index : -1, p);

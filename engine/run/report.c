@@ -18,9 +18,9 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
  * these steps are far shorter than earlier ones, 2 if their number grows exponentially with time, else 0. ended_steps
  * (N_STEP_ENDS): how many steps each kind of event ended since the last check; steps without an event are not reported.
  */
-static void report_progress(const Integrator *run, double *time_advance, long *steps, long *ended_steps)
+static void report_stall_monitor(const Integrator *run, double *advanced_time, long *steps, long *ended_steps)
 {
-    *time_advance = run->progress.monitor.gain;
+    *advanced_time = run->progress.monitor.gain;
     steps[0] = MONITOR_STEPS;
     steps[1] = run->progress.monitor.slowdown;
     for (int k = 0; k < N_STEP_ENDS; k++)

@@ -14,7 +14,7 @@
 static double compute_gap_rate_tolerance(const Integrator *run, const Parameters *p)
 {
     double absolute_state[N_S], max_speed = 0.0;
-    convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    convert_integrated_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     for (int k = 0; k < N_Q; k++)
         max_speed = max_of(max_speed, k % 3 < 2 ? fabs(absolute_state[N_Q + k]) : 0.0);
     return GAP_RATE_ROUNDING * max_speed;
@@ -27,7 +27,7 @@ static double compute_gap_rate_tolerance(const Integrator *run, const Parameters
 static double compute_gap_tolerance(const Integrator *run, const Parameters *p)
 {
     double absolute_state[N_S], max_length = 0.0;
-    convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    convert_integrated_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     for (int k = 0; k < N_Q; k++)
         max_length = max_of(max_length, k % 3 < 2 ? fabs(absolute_state[k]) : 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)

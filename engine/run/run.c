@@ -106,7 +106,7 @@ static void store_sample(const Integrator *run, double t, const double *state_ve
     double *discrete, signed char *codes)
 {
     enum { N_COLUMNS = AT_LEAST_ONE(N_DISCRETE), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
-    convert_to_absolute(t, state_vector, &run->discrete, p, y + row * N_S);
+    convert_integrated_to_absolute(t, state_vector, &run->discrete, p, y + row * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
         discrete[row * N_COLUMNS + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
         codes[row * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
@@ -158,7 +158,7 @@ static double compute_kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double mass[N_Q], absolute_state[N_S], sum = 0.0;
     mass_matrix(p, mass);
-    convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+    convert_integrated_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     for (int k = 0; k < N_Q; k++)
         sum += 0.5 * mass[k] * absolute_state[N_Q + k] * absolute_state[N_Q + k];
     return sum;
@@ -303,7 +303,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
 {
     Integrator *run = integrator;
     *run = (Integrator){.t = t};
-    convert_from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
+    convert_absolute_to_integrated(t, y, &run->discrete, (const Parameters *)p, run->y);
     read_discrete_state(discrete, &run->discrete);
     run->discrete.token = &run->cancellation;
     if (HAS_CONTINUATION)

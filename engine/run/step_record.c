@@ -51,7 +51,7 @@ static void append_row_after_jump(Integrator *run, const Parameters *p)
  * Start the step record in the caller's memory `rows` for `capacity` rows, at least MAX_ROWS_PER_STEP. Its first row is
  * marked as a jump. rows NULL: no record.
  */
-void gudgeon_run_record(void *integrator, double *rows, long capacity)
+void gudgeon_run_set_record_buffer(void *integrator, double *rows, long capacity)
 {
     ((Integrator *)integrator)->step_record = (StepRecord){.rows = rows, .capacity = capacity, .jumped = 1};
 }

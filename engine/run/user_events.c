@@ -342,7 +342,7 @@ static int record_events_at_constraint(Integrator *run, const StateBeforeEvent *
 #endif
 
 /* Set whether user-defined events that are declared to end the run may do so. */
-void gudgeon_run_stop(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
+void gudgeon_run_enable_end_events(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
 
 /* Remove all user-defined events from the list, whose records the caller does not need. */
 static void discard_user_events(Integrator *run) { run->events.n = 0; }

@@ -3,7 +3,7 @@
  * motion, relative to the acceleration that the largest film force gives the lightest body.
  */
 #define RATE_ROUNDING (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
-#define FILM_PART 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */
+#define FILM_SCALE_FRACTION 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */
 
 /*
  * Weights by which h times the rates of a stiff method's dense output at an end of a step follow from its stages, and

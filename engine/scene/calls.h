@@ -78,8 +78,8 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
     const double *p);
 #endif
 #if HAS_ABSOLUTE_FALLBACK
-int gudgeon_absolute_fallback(double t, const double *q, const double *v, const double *discrete, const double *p,
-    double *a);
+int gudgeon_accelerations_by_absolute_equations(double t, const double *q, const double *v, const double *discrete,
+    const double *p, double *a);
 #endif
 #if N_DEPENDENT
 int gudgeon_driven_loops(double t, double *q, const double *p, double *v);
@@ -90,10 +90,10 @@ int gudgeon_newton(double t, const double *y, const double *discrete, const doub
     const double *r, double *u);
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *discrete);
-void gudgeon_run_record(void *integrator, double *rows, long capacity);
+void gudgeon_run_set_record_buffer(void *integrator, double *rows, long capacity);
 long gudgeon_run_recorded(void *integrator);
 void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes);
-void gudgeon_run_stop(void *integrator, int stop);
+void gudgeon_run_enable_end_events(void *integrator, int stop);
 int gudgeon_run_has_full_buffers(const void *integrator);
 int gudgeon_run_count_listed(const void *integrator);
 int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *discrete,
@@ -186,16 +186,16 @@ const void *gudgeon_single_run_functions(void);
 #if !INTEGRATES
 size_t gudgeon_kinematic_size(void);
 void gudgeon_kinematic_begin(
-    void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
+    void *analysis, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
     double poll_interval);
-void gudgeon_kinematic_set_recording(void *integrator, double *rows, long capacity);
-long gudgeon_kinematic_fetch_records(void *integrator);
-void gudgeon_kinematic_restart(void *integrator);
-void gudgeon_kinematic_progress(const void *integrator, double *t, double *time_advance, long *steps);
-long gudgeon_kinematic_count_interpolated(const void *integrator, double *t);
-int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p, double *q, double *v, double *a,
+void gudgeon_kinematic_set_recording(void *analysis, double *rows, long capacity);
+long gudgeon_kinematic_fetch_records(void *analysis);
+void gudgeon_kinematic_restart(void *analysis);
+void gudgeon_kinematic_progress(const void *analysis, double *t, double *advanced_time, long *steps);
+long gudgeon_kinematic_count_interpolated(const void *analysis, double *t);
+int gudgeon_kinematic(void *analysis, long n, const double *t, const double *p, double *q, double *v, double *a,
     double *phi_max, double *phi_dot_max, long *steps, long *done);
-int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *p, const double *q,
+int gudgeon_kinematic_works(void *analysis, long n, const double *t, const double *p, const double *q,
     const double *v, double *work, long *done);
 
 /*
@@ -230,10 +230,10 @@ typedef struct {
     const volatile int *ending;           /* nonzero: all runs end at once */
 } KinematicBatch;
 
-void gudgeon_kinematic_ensemble(const void *batch, void *integrator, long n, const long *indices);
+void gudgeon_kinematic_ensemble(const void *batch, void *analysis, long n, const long *indices);
 #endif
 #if !INTEGRATES && N_USER_EVENTS
-int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
+int gudgeon_kinematic_events(void *analysis, long n, const double *t, const double *parameters, const double *q,
     const double *v, double run_begin, int can_stop, signed char *last_sign, long capacity, double *event_time,
     int *event, long *n_found, long *n_done);
 #endif

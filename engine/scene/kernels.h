@@ -81,8 +81,10 @@ void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, 
 /* The integrated state (motion/): its rates, conversions from and to the state of all bodies, steps to the closures. */
 int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
     RhsOutputs *rhs);
-void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all);
-void convert_from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y);
+void convert_integrated_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
+    double *absolute_state);
+void convert_absolute_to_integrated(double t, const double *absolute_state, DiscreteState *discrete,
+    const Parameters *p, double *y);
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
 /*

@@ -224,7 +224,7 @@ class Model:
         return tuple(clearance.name for clearance in self.clearances if clearance.rigid and clearance.friction)
 
     @property
-    def has_changing_constraints(self) -> bool:
+    def has_intermittent_constraints(self) -> bool:
         """Return whether some constraint equations are active only at times: stiction of friction, or a rigid contact.
 
         The constraints are then intermittent (unilateral contact, variable structure); constraint equations that depend

@@ -315,7 +315,7 @@ class _SeriesBuilder(Rules):
         angle, partner_name, sign = self._angle_differences[symbol.name]
         return value, sign * self.integrate_product(self.define_value(angle), sp.Symbol(partner_name, real=True))
 
-    def define_companion_function(self, value: sp.Expr) -> sp.Symbol:
+    def define_auxiliary_function(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of `value`, an auxiliary function in the derivative of another, such as cos u for sin u.
 
         It is defined at the first use, under its name in the kernel if it has one.

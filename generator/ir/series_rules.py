@@ -85,7 +85,7 @@ class Rules(ABC):
         """Define a local and return its symbol; `as_series`: as a series even if it is constant."""
 
     @abstractmethod
-    def define_companion_function(self, value: sp.Expr) -> sp.Symbol:
+    def define_auxiliary_function(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of an auxiliary function of the same argument, such as cos u for sin u."""
 
     def is_constant_in_time(self, value: sp.Basic) -> bool:
@@ -353,7 +353,7 @@ def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of
         if w == symbol_of_value**2:
             w = rules.postpone_square_definition(symbol_of_value)
         elif w.is_Function:
-            w = rules.define_companion_function(w)
+            w = rules.define_auxiliary_function(w)
         elif not w.is_Symbol and w != 1:
             w = rules.define_value(w)
         terms.append(coefficient * (u if w == 1 else rules.integrate_product(u, w)))

@@ -56,7 +56,7 @@ def make_dynamics_kernel(
     """
     model = system.model
     builder = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
-    if kkt.rows and not model.has_changing_constraints:
+    if kkt.rows and not model.has_intermittent_constraints:
         builder.begin_section("status")
         builder.append_line(Status())
     _append_event_functions(model, builder)
@@ -75,7 +75,7 @@ def make_dynamics_kernel(
     # with changing constraints a vanishing pivot is reported, not handled
     factor = (
         kkt.factorize(builder)
-        if model.has_changing_constraints
+        if model.has_intermittent_constraints
         else kkt.factorize(builder, True, RUN_SINGULAR, RUN_VANISHING)
     )
     x = kkt.solve(builder, factor, b)
@@ -86,10 +86,10 @@ def make_dynamics_kernel(
         builder.append_store(RHS["lambda"][r], x[kkt.n + r])
     _append_friction_forces(builder, kkt, x)
     _append_rigid_contact_accelerations(builder, kkt.system, x)
-    if kkt.rows and not model.has_changing_constraints:
+    if kkt.rows and not model.has_intermittent_constraints:
         (append_fallback or _append_redundancy_handling)(builder, kkt, b)
     _append_powers(builder, kkt, prescribed_forces)
-    builder.append_line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
+    builder.append_line(Return(pivot=bool(kkt.rows and not model.has_intermittent_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
     kernel = builder.build_kernel(arguments, status=True, owner="")
     return declare_branches(kernel, "rhs")

@@ -202,7 +202,7 @@ class Program:
             return bool(kernels) and not self.model.events and not _has_pivoted_block((*kernels, *motion))
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
-        is_excluded = self.model.has_changing_constraints or has_contours or is_large
+        is_excluded = self.model.has_intermittent_constraints or has_contours or is_large
         return self.methods is not None and self.tree is not None and not (self.tree.driven_loop_kernels or is_excluded)
 
 

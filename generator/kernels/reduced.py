@@ -34,7 +34,7 @@ def has_singular_fallback(system: TreeSystem) -> bool:
 
     It does not in scenes without closures, or with dry friction or rigid contacts, where a vanishing pivot is reported.
     """
-    return bool(system.rows and not system.model.has_changing_constraints)
+    return bool(system.rows and not system.model.has_intermittent_constraints)
 
 
 def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:

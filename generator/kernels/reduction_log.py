@@ -132,11 +132,11 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
         """
         keys = [k for k in coefficients if k != CONSTANT]
         if any(k not in drives for k in keys):
-            return message.FOLLOWING
+            return message.DEPENDENT
         return message.PRESCRIBED if keys else message.CONSTANT
 
     owner = {row.name: row.owner for row in model.all_rows}
-    for angle_kind in (message.PRESCRIBED, message.CONSTANT, message.FOLLOWING):
+    for angle_kind in (message.PRESCRIBED, message.CONSTANT, message.DEPENDENT):
         rows = {row: body for row, body in tree.solved.items() if classify_angle(tree.angles[body]) == angle_kind}
         names = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
         yield Step(

@@ -122,7 +122,7 @@ class ResultNames:
             raise make_unknown_name_error(f"result of {owner}", result, self.owners[owner], location)
         return self.owners[owner][result]
 
-    def check_series_name(self, name: Text, outputs: Iterable[str]) -> None:
+    def raise_for_name_without_dot(self, name: Text, outputs: Iterable[str]) -> None:
         """Raise UnknownNameError, with the nearest series, for any name without a dot; others are not checked here.
 
         A series of a result is named OWNER.RESULT. Series that the section `outputs` defines have no dot, so that

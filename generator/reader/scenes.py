@@ -277,7 +277,7 @@ def check_peaks(
             is_later = name.partition(".")[0] in UNCHECKED_OWNERS or name in _find_internal_states(scene)
             if isinstance(name, Text) and name not in outputs and not is_later:
                 with reader.collect_errors():
-                    result_names.check_series_name(name, outputs)
+                    result_names.raise_for_name_without_dot(name, outputs)
                     result_names(Name(str(name)), name.where)
                     result_names.check_result_availability(name, scene.name, scene.play)
 

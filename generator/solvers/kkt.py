@@ -71,7 +71,7 @@ class KKT:
         self.stick_symbols: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
         self.inertias_of_angles = (
-            self._find_inertias_of_angles() if self.rows and not system.model.has_changing_constraints else {}
+            self._find_inertias_of_angles() if self.rows and not system.model.has_intermittent_constraints else {}
         )
         if not system.in_tree:
             self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.inertias_of_angles)

@@ -148,7 +148,7 @@ def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[
         yield joint, float(np.linalg.norm(joint_values)), compute_max_clearance(source, p, joint)
 
 
-def describe_contacts_without_onset(
+def describe_contacts_with_assumed_approach_speed(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array
 ) -> tuple[str, ...]:
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
@@ -161,7 +161,7 @@ def describe_contacts_without_onset(
     for index in joints:
         joint = compiled.source.clearances[index]
         if joint.is_corner:
-            notes += _describe_corner_without_onset(compiled, p, t, q, v, discrete_states, index)
+            notes += _describe_corner_with_assumed_approach_speed(compiled, p, t, q, v, discrete_states, index)
             continue
         rows, e = find_eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance]) - _find_contour_depth(compiled, p, q, joint, e)
@@ -175,7 +175,7 @@ def describe_contacts_without_onset(
     return tuple(notes)
 
 
-def _describe_corner_without_onset(
+def _describe_corner_with_assumed_approach_speed(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array, joint_index: int
 ) -> Iterator[str]:
     """Yield a note on the corner of a slider if it begins in contact without approaching its wall (δ̇ ≤ 0).
@@ -183,7 +183,7 @@ def _describe_corner_without_onset(
     The approach speed δ̇⁻ at the onset, the start of the contact, is then assumed.
     Nothing is yielded if the force does not depend on the approach speed: it is tested at velocities nearest to v with
     δ̇ = 1 m/s. joint_index: of the joint among those with play. Other arguments as in
-    `describe_contacts_without_onset`.
+    `describe_contacts_with_assumed_approach_speed`.
     """
     joint = compiled.source.clearances[joint_index]
     depth, deltadot = compute_corner_penetration(compiled, p, t, q, v, joint_index)

@@ -29,12 +29,12 @@ def solve_minimum_norm(matrix: Array, right_hand_side: Array) -> Array:
     if not (np.isfinite(matrix).all() and np.isfinite(right_hand_side).all()):
         return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= MIN_SPARSE_COORDINATES:
-        x = solve_independent_rows(matrix, right_hand_side)
-        return x if x is not None else solve_dependent_rows(matrix, right_hand_side)
+        x = solve_full_rank(matrix, right_hand_side)
+        return x if x is not None else solve_rank_deficient(matrix, right_hand_side)
     return np.asarray(np.linalg.lstsq(matrix, right_hand_side, rcond=1e-12)[0], dtype=np.float64)
 
 
-def solve_independent_rows(matrix: Array, right_hand_side: Array) -> Array | None:
+def solve_full_rank(matrix: Array, right_hand_side: Array) -> Array | None:
     """Return the minimum-norm solution x (n,) of matrix x = right_hand_side; None if the rows A are dependent.
 
     The matrix [I Aᵀ; A 0] is factorized. Rows are dependent if it is singular or x has a residual above 1e-9.
@@ -48,7 +48,7 @@ def solve_independent_rows(matrix: Array, right_hand_side: Array) -> Array | Non
     return np.asarray(x, dtype=np.float64) if fits else None
 
 
-def solve_dependent_rows(matrix: Array, right_hand_side: Array) -> Array:
+def solve_rank_deficient(matrix: Array, right_hand_side: Array) -> Array:
     """Return an approximate minimum-norm least-squares solution x (n,) of matrix x = right_hand_side.
 
     Rows may depend on each other; used if the direct sparse solution (`solve_full_rank`) fails. Singular values below

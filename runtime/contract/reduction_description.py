@@ -143,7 +143,7 @@ _DESCRIPTIONS: Mapping[str, Callable[[Step], str]] = {
     reduction_log.REDUNDANT: _describe_redundant_equations,
     reduction_log.PRESCRIBED: _describe_prescribed_angles,
     reduction_log.CONSTANT: _describe_constant_angles,
-    reduction_log.FOLLOWING: _describe_dependent_angles,
+    reduction_log.DEPENDENT: _describe_dependent_angles,
     reduction_log.HUB: _describe_shared_point,
     reduction_log.HINGES: _describe_hinges,
     reduction_log.SLIDES: _describe_slides,

@@ -227,10 +227,10 @@ class KinematicRun:
 
         STALLED gives two errors: a motion that becomes ever faster, or samples that take too long.
         """
-        failure_time, time_advance, steps, is_slowing = self._read_progress()
+        failure_time, advanced_time, steps, is_slowing = self._read_progress()
         t, t_end = float(failure_time[0]), float(self.problem.t[-1])
         if status == STALLED:
-            progress = RunProgress(t, t_end - t, time_advance, steps, bool(is_slowing))
+            progress = RunProgress(t, t_end - t, advanced_time, steps, bool(is_slowing))
             return (
                 build_runaway_error(progress, format_drive_states(self.compiled, self.problem.p, t))
                 if is_slowing
@@ -268,14 +268,14 @@ class KinematicRun:
         These are the time by which they advanced (s), their number, and a code: 1 if they are far shorter than earlier
         ones, 2 if their number grows exponentially with time, else 0.
         """
-        t, time_advance, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
+        t, advanced_time, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
         self.compiled.lib.gudgeon_kinematic_progress(
             self.pointer(self.motion_struct, "void *"),
             self.pointer(t),
-            self.pointer(time_advance),
+            self.pointer(advanced_time),
             self.pointer(steps, "long *"),
         )
-        return t, float(time_advance[0]), int(steps[0]), int(steps[1])
+        return t, float(advanced_time[0]), int(steps[0]), int(steps[1])
 
     def build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """Return the complete samples as a Trajectory, with events up to the last one.

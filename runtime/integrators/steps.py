@@ -58,7 +58,9 @@ class StepLog:
 
     def register_record_buffer(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
-        self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, is_written=True), len(self.rows))
+        self.compiled.lib.gudgeon_run_set_record_buffer(
+            run, self.compiled.pointer(self.rows, is_written=True), len(self.rows)
+        )
 
     def flush_recorded_states(self, run: Any) -> None:
         """Pass copies of the states that C's integrator has written since the last call to the observer; clear them.

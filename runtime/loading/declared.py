@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-SHA256 = "380e0b564ff3337ffd57ab10f1a686f352fbcf627db366ae1518287c47469a71"  # SHA-256 of these declarations
+SHA256 = "3d8337119c47b0bb2e7980be0723ab7828661600af5d12fd6a85060d4927dcff"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
@@ -41,7 +41,7 @@ ffi = FFI(
         "0001"
     ),
     _globals=(
-        b"\x00\x00C#gudgeon_absolute_fallback",
+        b"\x00\x00C#gudgeon_accelerations_by_absolute_equations",
         0,
         b"\x00\x00\xa7#gudgeon_adaptive_run",
         0,
@@ -133,13 +133,13 @@ ffi = FFI(
         0,
         b"\x00\x00\xe9#gudgeon_run_count_listed",
         0,
+        b"\x00\x01`#gudgeon_run_enable_end_events",
+        0,
         b"\x00\x00\xb2#gudgeon_run_events",
         0,
         b"\x00\x00\xe9#gudgeon_run_has_full_buffers",
         0,
         b"\x00\x00\xbb#gudgeon_run_impacts",
-        0,
-        b"\x00\x01K#gudgeon_run_record",
         0,
         b"\x00\x00\xfa#gudgeon_run_recorded",
         0,
@@ -147,11 +147,11 @@ ffi = FFI(
         0,
         b"\x00\x01y#gudgeon_run_sample",
         0,
+        b"\x00\x01K#gudgeon_run_set_record_buffer",
+        0,
         b"\x00\x01\x01#gudgeon_run_size",
         0,
         b"\x00\x01P#gudgeon_run_start",
-        0,
-        b"\x00\x01`#gudgeon_run_stop",
         0,
         b"\x00\x00\x0f#gudgeon_set_parameters",
         0,

@@ -137,7 +137,7 @@ def read_given_parameters_of_runs(
     """
     values_and_mask = read_runs_with_equal_names(source, parameter_sets)
     result: tuple[Array, Mask] = (
-        read_each_run(parameter_sets, lambda _, parameter_set: read_given_parameters(source, parameter_set))
+        read_parameters_of_runs(parameter_sets, lambda _, parameter_set: read_given_parameters(source, parameter_set))
         if values_and_mask is None
         else values_and_mask
     )
@@ -205,8 +205,9 @@ def _read_floats(column: Column, parameter: RuntimeParameter) -> Array | float |
     return None if ((magnitudes > 0.0) & (magnitudes < sys.float_info.min)).any() else numbers
 
 
-def read_each_run(
-    parameter_sets: Sequence[Mapping[str, Any]], read_run: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]
+def read_parameters_of_runs(
+    parameter_sets: Sequence[Mapping[str, Any]],
+    read_parameters: Callable[[int, Mapping[str, Any]], tuple[Array, Array]],
 ) -> Any:
     """Return the parameters of all runs: values (n_runs, n_parameters), and a mask, True where a value is given.
 
@@ -216,7 +217,7 @@ def read_each_run(
     pairs = []
     for i, parameter_set in enumerate(parameter_sets):
         try:
-            pairs.append(read_run(i, parameter_set))
+            pairs.append(read_parameters(i, parameter_set))
         except BadValueError as error:
             raise BadValueError(f"run {i}: {error}") from None
     return np.array([given_values for given_values, _ in pairs]), np.array([mask for _, mask in pairs])

@@ -141,14 +141,14 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
     bearing.
     """
     uniform_spacing = FULL_TURN / n_around
-    first_uniform_angle = float(_compute_uniform_angle(np.array([first_angle]), eps)[0])
-    half_nodes = _invert_uniform_angle(
+    first_uniform_angle = float(_compute_grid_coordinate(np.array([first_angle]), eps)[0])
+    half_nodes = _invert_grid_coordinate(
         first_uniform_angle + 0.5 * uniform_spacing * np.arange(2 * n_around, dtype=float), eps
     )
     phi, right = half_nodes[::2], half_nodes[1::2]
     left = np.concatenate([[right[-1] - FULL_TURN], right[:-1]])
     node_spacing = np.concatenate([phi[1:], [phi[0] + FULL_TURN]]) - phi
-    angle_weights = uniform_spacing / _compute_density(phi, eps)
+    angle_weights = uniform_spacing / _compute_node_density(phi, eps)
     if not n_along:
         half_length = np.array([l_over_d])
         return Grid(
@@ -165,14 +165,14 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
     )
 
 
-def _compute_density(phi: Array, eps: float) -> Array:
+def _compute_node_density(phi: Array, eps: float) -> Array:
     """Return the relative density of the nodes, the derivative of `_compute_grid_coordinate` with respect to φ."""
     return np.asarray(
         UNIFORM_FRACTION + (1.0 - UNIFORM_FRACTION) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi))
     )
 
 
-def _compute_uniform_angle(phi: Array, eps: float) -> Array:
+def _compute_grid_coordinate(phi: Array, eps: float) -> Array:
     """Return the stretched grid coordinate, in which the nodes are equidistant, for angles φ at eccentricity ratio ε.
 
     It is the mean of φ and of Sommerfeld's angle γ: (1 + ε cos φ)(1 − ε cos γ) = 1 − ε², dγ = √(1 − ε²)/h dφ.
@@ -185,7 +185,7 @@ def _compute_uniform_angle(phi: Array, eps: float) -> Array:
     return np.asarray(UNIFORM_FRACTION * phi + (1.0 - UNIFORM_FRACTION) * gamma)
 
 
-def _invert_uniform_angle(values: Array, eps: float) -> Array:
+def _invert_grid_coordinate(values: Array, eps: float) -> Array:
     """Return the angles φ at which the grid coordinate (`_compute_grid_coordinate`) has these values.
 
     Safeguarded Newton's method: the bracket is bisected if a step leaves it or is more than half of the last one. Both
@@ -193,9 +193,9 @@ def _invert_uniform_angle(values: Array, eps: float) -> Array:
     """
     low, high, phi, last_step = values - math.pi, values + math.pi, values.copy(), np.full_like(values, FULL_TURN)
     for _ in range(200):
-        residual = _compute_uniform_angle(phi, eps) - values
+        residual = _compute_grid_coordinate(phi, eps) - values
         low, high = np.where(residual < 0.0, phi, low), np.where(residual > 0.0, phi, high)
-        step = -residual / _compute_density(phi, eps)
+        step = -residual / _compute_node_density(phi, eps)
         must_bisect = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last_step))
         last_step = np.where(must_bisect & (residual != 0.0), 0.5 * (low + high) - phi, step)
         phi = phi + last_step

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.guess_warnings import find_guess_deviations
-from gudgeon.assembly.journals import check_journal_positions, describe_contacts_without_onset
+from gudgeon.assembly.journals import check_journal_positions, describe_contacts_with_assumed_approach_speed
 from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import Start, assemble_start
 from gudgeon.model.cached_values import cache_by_values, cache_selected_values
@@ -41,7 +41,11 @@ def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
     # a journal without a start position in the file begins in the centre of its bearing
     may_touch = bool(source.eccentricity_equations) or any(joint.is_corner for joint in source.clearances)
     check_redundant_equations(compiled, p, 0.0, start.q)
-    notes = describe_contacts_without_onset(compiled, p, 0.0, start.q, start.v, no_contacts) if may_touch else ()
+    notes = (
+        describe_contacts_with_assumed_approach_speed(compiled, p, 0.0, start.q, start.v, no_contacts)
+        if may_touch
+        else ()
+    )
     return FileStart(start.q, start.v, no_contacts, deviations, notes)
 
 

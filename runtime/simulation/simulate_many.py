@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.assembly.guess_warnings import warn_guess_deviations_in_runs
-from gudgeon.assembly.journals import check_journal_positions, describe_contacts_without_onset
+from gudgeon.assembly.journals import check_journal_positions, describe_contacts_with_assumed_approach_speed
 from gudgeon.assembly.rank import find_constraint_violation, list_redundant_equations
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
@@ -28,8 +28,8 @@ from gudgeon.model.evaluation import check_sample_memory
 from gudgeon.model.parameter_sets import (
     ParameterSets,
     compute_parameter_values_of_runs,
-    read_each_run,
     read_parameter_sets,
+    read_parameters_of_runs,
     read_runs_with_equal_names,
 )
 from gudgeon.model.sizes import compute_mechanism_sizes
@@ -230,7 +230,7 @@ class _Starts:
         self._merged_inputs: tuple[object, ...] = (self, self)  # of the last run: its parameters, those of its state
         self.given: Array
         self.is_given: Any
-        self.given, self.is_given = uniform_values or read_each_run(rows, self._merge_parameters)
+        self.given, self.is_given = uniform_values or read_parameters_of_runs(rows, self._merge_parameters)
 
     def _merge_parameters(self, i: int, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
         """Return values and mask (n_parameters,) of the parameters given for run i, and append its notes to `remarks`.
@@ -365,7 +365,9 @@ class _Results:
         state = problem.q, problem.v
         if self.starts.states:
             remarks += build_violation_notes(problem.compiled, problem.p, t0, *state)
-        remarks += describe_contacts_without_onset(problem.compiled, problem.p, t0, *state, problem.memory)
+        remarks += describe_contacts_with_assumed_approach_speed(
+            problem.compiled, problem.p, t0, *state, problem.memory
+        )
         return replace(problem, remarks=remarks, resumed_state=self.starts.states[i] if self.starts.states else None)
 
     def __call__(self, i: int) -> Result:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from gudgeon.assembly.guess_warnings import warn_guess_deviations
-from gudgeon.assembly.journals import describe_contacts_without_onset
+from gudgeon.assembly.journals import describe_contacts_with_assumed_approach_speed
 from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import Start, assemble_start
 from gudgeon.errors import BadValueError
@@ -318,7 +318,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             q, v, memory = initial_state.q, initial_state.v, initial_state.memory
             check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
-            remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
+            remarks += describe_contacts_with_assumed_approach_speed(self.compiled, p, t0, q, v, memory)
         observer = make_observer(self.compiled, (p, given, is_given), settings.rtol, names, compared_scene)
         ctrl_c = DelayedCtrlC()
         problem = Problem(

@@ -21,7 +21,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import N_ONSETS, Attempt, Parameters, SceneWindow, Setting, compute_differences
-from gudgeon.studies.verdicts import Cell, Limits, Pair, judge_runs, select_limits
+from gudgeon.studies.verdicts import Cell, Limits, Pair, classify_runs, select_limits
 
 REFERENCE_TOLERANCE_RATIO = 100.0
 SOBOL_SEED = 20  # seed of the scrambling of the Sobol sequence
@@ -102,14 +102,14 @@ def judge_point(
     window, limits = SceneWindow(simulation, t_end, parameters, limit=cpu_limit), limits or select_limits(setting)
     long_run = window.run_at_times(setting, np.linspace(0.0, t_end, N_LONG_RUN_INTERVALS + 1), progress)
     if long_run.failure or long_run.run is None:
-        return judge_runs(parameters, long_run, [], limits)
+        return classify_runs(parameters, long_run, [], limits)
     refined_window = replace(window, limit=CPU_LIMIT_FACTOR * cpu_limit)
     times = choose_comparison_times(long_run.run)
     run_pair = _run_coarse_and_fine(refined_window, setting, times)
-    cell = judge_runs(parameters, long_run, [run_pair], limits)
+    cell = classify_runs(parameters, long_run, [run_pair], limits)
     if cell.failed and cell.error.exceeds_limits(limits.motion, limits.path, limits.force):
         predictable_samples = times[: _count_predictable_samples(refined_window, run_pair[1], limits)]
-        cell = judge_runs(
+        cell = classify_runs(
             parameters,
             long_run,
             [_run_coarse_and_fine(refined_window, setting, predictable_samples)]

@@ -40,7 +40,7 @@ from gudgeon.studies.runs import (
     list_round_numbers,
 )
 from gudgeon.studies.threads import ReportProgress, TaskPool
-from gudgeon.studies.verdicts import Cell, Limits, Status, check_memory_of_cells, judge_runs, make_missing_cell
+from gudgeon.studies.verdicts import Cell, Limits, Status, check_memory_of_cells, classify_runs, make_missing_cell
 
 MAX_LONG_RUN_STEPS = 300_000  # default length of the long runs, in steps of the smallest step
 MAX_COMPARISON_STEPS = 1_000_000  # maximum length of the comparison window, in steps of the smallest reference step
@@ -446,7 +446,7 @@ def _judge_steps(
             pairs.append(
                 (attempts[long_window, step], fine_long_run)
             )  # without contacts, errors are meaningful for longer
-        cells.append(judge_runs(job.parameters, attempts[long_window, step], pairs, limits))
+        cells.append(classify_runs(job.parameters, attempts[long_window, step], pairs, limits))
     return cells
 
 

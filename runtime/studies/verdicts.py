@@ -95,7 +95,7 @@ def make_missing_cell(parameters: Parameters, setting: Setting) -> Cell:
     return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
-def judge_runs(
+def classify_runs(
     parameters: Parameters, long_run: Attempt, run_pairs: Sequence[Pair], limits: Limits | None = None
 ) -> Cell:
     """Return the cell of a setting: diverged, inaccurate, outside the model or stable, with the reason of its worst

@@ -35,7 +35,7 @@ EXPORTED_FUNCTIONS = (
     "evaluate",
     "run_size",
     "run_start",
-    "run_stop",
+    "run_enable_end_events",
     "run_events",
     "run_impacts",
     "run_report",

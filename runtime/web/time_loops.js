@@ -63,7 +63,7 @@ class Integration {
         const {q, v} = run.findStart(), y = memory.allocateDoubles(this.widths.y, [...q, ...v]);
         const none = new Float64Array(this.widths.discreteStates).fill(NaN);
         lib.gudgeon_run_start(this.integrator, this.p, t[0], y, memory.allocateDoubles(none.length, none));
-        lib.gudgeon_run_stop(this.integrator, 1);
+        lib.gudgeon_run_enable_end_events(this.integrator, 1);
         this.setUpMethod(rtol);
     }
 

@@ -147,10 +147,12 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
         chained = bool(source.driven_loop_coordinates)
         state = "at.q, at.v" if chained else "s, rate"
         seat = (
-            "TreeState at;\n    if (solve_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
+            "TreeState at;\n    if (build_tree_state_from_call(t, s, rate, &now, p, &at))\n        return 1;"
+            if chained
+            else ""
         )
         rescue = "reduce_accelerations(t, q, v, all_a, p, rescued);"
-        has_rescue = "gudgeon_absolute_fallback" in message
+        has_rescue = "gudgeon_accelerations_by_absolute_equations" in message
         text += BOTH % (seat, state, state, rescue if has_rescue else "(void)rescued;")
         message += MESSAGES
     (folder / "library.c").write_text(text, encoding="utf-8")
@@ -232,7 +234,7 @@ def _check(
             for b, other in zip(found, zip(*moved, strict=True), strict=True)
         ]
     _agree("events", of_tree, of_all, slack[4])
-    if hasattr(compiled.lib, "gudgeon_absolute_fallback"):
+    if hasattr(compiled.lib, "gudgeon_accelerations_by_absolute_equations"):
         size = np.max(abs(tree), initial=1.0)
         _agree("accelerations", tree[:-1] / size, rescued[:-1] / size, np.full(1, np.max(slack[0]) / size + 1e-7))
     else:

@@ -14,9 +14,9 @@ from gudgeon.errors import InputError, UnitError
 from gudgeon.model.compiled import RUNS_PER_CALL
 from gudgeon.model.parameter_sets import (
     Columns,
-    read_each_run,
     read_given_parameters_of_runs,
     read_parameter_sets,
+    read_parameters_of_runs,
     read_runs_with_equal_names,
 )
 from gudgeon.model.parameters import GAINS, compute_values_without_baumgarte, read_given_parameters
@@ -40,7 +40,7 @@ ALONE: dict[str, list[dict[Any, Any]]] = {
 def test_plain_numbers_are_read_at_once() -> None:
     source = gudgeon.load("nine_bar_press", "dry").source
     found, mask = read_given_parameters_of_runs(source, PLAIN)
-    one_by_one = read_each_run(PLAIN, lambda _, row: read_given_parameters(source, row))
+    one_by_one = read_parameters_of_runs(PLAIN, lambda _, row: read_given_parameters(source, row))
     assert found.tobytes() == one_by_one[0].tobytes() and (mask == one_by_one[1]).all() and mask.sum() == 4
 
 
@@ -87,7 +87,7 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
     assert isinstance(rows, Columns) and isinstance(plain, list) and len(rows) == 3
     assert [*rows] == plain and rows[-1] == plain[2] and rows[1:] == plain[1:]
     assert [(i, str(error)) for i, error in bad.items()] == [(i, str(error)) for i, error in plain_bad.items()]
-    one_by_one = message(lambda: read_each_run(plain, lambda _, row: read_given_parameters(source, row)))
+    one_by_one = message(lambda: read_parameters_of_runs(plain, lambda _, row: read_given_parameters(source, row)))
     assert (
         message(lambda: read_given_parameters_of_runs(source, rows))
         == one_by_one

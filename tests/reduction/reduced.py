@@ -83,7 +83,7 @@ class Reduced:
     def rescue(self, t: float, s: Array, rate: Array, memory: Array) -> Array:
         """s̈ by way of the absolute formulation."""
         a = np.empty(self.n + 1)
-        assert self._call("absolute_fallback", t, s, rate, memory, self.p, a) == 0
+        assert self._call("accelerations_by_absolute_equations", t, s, rate, memory, self.p, a) == 0
         return a[: self.n]
 
     def close(self, t: float, s: Array, rate: Array) -> tuple[Array, Array]:

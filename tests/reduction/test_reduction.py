@@ -101,7 +101,7 @@ def check_state(
     carried = [sum(sign * want.multipliers[0][index[row]] for row, sign in share.items()) for share in shares]
     assert close(multipliers, np.array(carried), 1e-8, float(abs(want.multipliers).max(initial=0.1)))
     assert close(power, want.power[0], 1e-9, max(1.0, float(abs(want.multipliers).max(initial=0.0))))
-    if hasattr(library.lib, "gudgeon_absolute_fallback"):
+    if hasattr(library.lib, "gudgeon_accelerations_by_absolute_equations"):
         assert close(reduced.rescue(t, s, rate, memory), a, 1e-8, 1.0)
 
 

@@ -20,7 +20,7 @@ from gudgeon.studies.map import VerdictMap, compute_verdict_map, list_default_cl
 from gudgeon.studies.runs import Attempt, Error, SceneWindow, Setting
 from gudgeon.studies.show.map import describe_marked_step, format_run_command
 from gudgeon.studies.show.tables import format_fraction, format_seconds
-from gudgeon.studies.verdicts import Cell, Limits, Status, judge_runs
+from gudgeon.studies.verdicts import Cell, Limits, Status, classify_runs
 from tests.programs import needs_compiler
 
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")
@@ -91,7 +91,7 @@ def test_limits_decide() -> None:
     long, fine = work.run(rk4(1e-5)), work.run(rk4(1e-6))
 
     def status(**limits: float) -> Status:
-        return judge_runs({}, long, [(long, fine)], Limits(**limits)).status
+        return classify_runs({}, long, [(long, fine)], Limits(**limits)).status
 
     assert status() is Status.STABLE
     assert status(force=1e-6) is Status.INACCURATE
@@ -110,8 +110,8 @@ def test_run_that_nothing_vouches_for_is_not_stable() -> None:
     work = SceneWindow(press("dry"), 2e-3)
     run = work.run(rk4(1e-5))
     failed = Attempt(rk4(1e-6), None, "no longer finite", 1e-4)
-    assert judge_runs({}, run, [(run, failed)]).status is Status.INACCURATE
-    assert judge_runs({}, failed, [(run, run)]).status is Status.DIVERGED
+    assert classify_runs({}, run, [(run, failed)]).status is Status.INACCURATE
+    assert classify_runs({}, failed, [(run, run)]).status is Status.DIVERGED
 
 
 @needs_compiler
@@ -123,7 +123,7 @@ def test_lost_contact_is_seen() -> None:
     run = work.run(rk4(1e-5))
     assert run.run is not None and run.run.state.any()
     blind = replace(run, run=replace(run.run, state=0 * run.run.state, stored={}))
-    cell = judge_runs({}, blind, [(run, run)])
+    cell = classify_runs({}, blind, [(run, run)])
     assert cell.status is Status.DIVERGED and "missed contact" in cell.reason
 
 

@@ -61,7 +61,7 @@ def print_tangent_functions(
     contours = any(joint.clearance.contour for joint in joints)
     dimensions = {"rows": 4 + n_states, "columns": 5 + n_states}
     texts = [CONTOURS * contours + print_shared_force_derivatives(joints, render, "double", "PinSlopes", n_states)]
-    texts += [render("play/contour_slopes.c.jinja")] * contours
+    texts += [render("play/contour_derivatives.c.jinja")] * contours
     texts += map(functions.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         if clearance.contour:
@@ -93,11 +93,11 @@ def print_tangent_functions(
 
 
 def _print_contour_tangent(
-    clearance: Clearance, contour: Contour, dry_slopes_call: SharedFunctionCall, render: Render
+    clearance: Clearance, contour: Contour, dry_derivatives_call: SharedFunctionCall, render: Render
 ) -> str:
     """Return the C function with the derivatives of the force of a bearing with a contour, which has dry contact only.
 
-    dry_slopes_call: the call of the derivatives of the dry contact. render: prints a template.
+    dry_derivatives_call: the call of the derivatives of the dry contact. render: prints a template.
     """
     arguments = [symbol.name for symbol in CONTOUR_INPUTS]
     return render(
@@ -105,32 +105,34 @@ def _print_contour_tangent(
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
         depth_derivatives=[print_expression(contour.compute_depth(beta_i, order)) for order in range(3)],
-        is_g_unused="g" in functions.find_unused_branch_arguments([dry_slopes_call]),
-        call=functions.print_shared_call(dry_slopes_call, (*arguments, "contact"), ("&F",)),
+        is_g_unused="g" in functions.find_unused_branch_arguments([dry_derivatives_call]),
+        call=functions.print_shared_call(dry_derivatives_call, (*arguments, "contact"), ("&F",)),
     )
 
 
 def print_shared_force_derivatives(
-    joints: Sequence[JointFunctions], render: Render, number_type: str, slopes_type: str, n_states: int
+    joints: Sequence[JointFunctions], render: Render, number_type: str, derivatives_type: str, n_states: int
 ) -> str:
     """Return the C functions that turn derivatives of contact forces to ground axes and blend film with dry contact.
 
     Blending and walls of guides are included if a joint needs them.
 
-    number_type, slopes_type: the C types of a value and of a set of derivatives, for single runs or lanes. n_states:
-    internal states of laws of each joint.
+    number_type, derivatives_type: the C types of a value and of a set of derivatives, for single runs or lanes.
+    n_states: internal states of laws of each joint.
     """
     blend_function = (
         _BLENDING.replace("{number}", number_type)
-        .replace("{type}", slopes_type)
+        .replace("{type}", derivatives_type)
         .replace("k < 5", f"k < {5 + n_states}")
     )
     blending = blend_function if any(joint.has_transition for joint in joints) else ""
-    substitutions = {"number": number_type, "type": slopes_type, "rows": 4 + n_states, "columns": 5 + n_states}
-    wall_slopes = (
-        render("play/wall_slopes.c.jinja", **substitutions) if any(joint.clearance.wall for joint in joints) else ""
+    substitutions = {"number": number_type, "type": derivatives_type, "rows": 4 + n_states, "columns": 5 + n_states}
+    wall_derivatives = (
+        render("play/wall_derivatives.c.jinja", **substitutions)
+        if any(joint.clearance.wall for joint in joints)
+        else ""
     )
-    return render("play/pin_slopes.c.jinja", blending=blending, **substitutions) + wall_slopes
+    return render("play/pin_derivatives.c.jinja", blending=blending, **substitutions) + wall_derivatives
 
 
 def _print_derivative_selection(

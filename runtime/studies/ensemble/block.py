@@ -31,7 +31,7 @@ from gudgeon.studies.ensemble.measures import (
     list_sampled_series,
     list_sliding_requests,
 )
-from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, group_notes, merge_notes
+from gudgeon.studies.ensemble.notes import Note, collect_start_deviation_warnings, group_notes, merge_notes
 from gudgeon.studies.ensemble.parameter_values import (
     ROUNDING,
     evaluate_expression_for_runs,
@@ -123,7 +123,10 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     failures = [table.invalid_runs.get(i, "") for i in range(job.n_runs)]
     valid_runs = np.array([i for i in range(job.n_runs) if i not in table.invalid_runs], dtype=int)
     collector = _Collector(job, table)
-    with collect_guess_notes(simulation.source, job.first_run) as guess_notes, announce_later_runs(job.n_later_runs):
+    with (
+        collect_start_deviation_warnings(simulation.source, job.first_run) as start_deviation_notes,
+        announce_later_runs(job.n_later_runs),
+    ):
         try:
             if len(valid_runs):
                 collector.add_batch(
@@ -137,7 +140,7 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
                     )
                 except InputError as error:
                     failures[i] = str(error)
-    collector.notes.append(guess_notes)
+    collector.notes.append(start_deviation_notes)
     collector.add_measures(
         compute_neighbour_measures(simulation, job, table, collector.t_last, failures, progress), failures
     )

@@ -23,7 +23,7 @@ from gudgeon.results.batch import Array
 from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
 from gudgeon.simulation.lyapunov import limit_rtol_of_neighbours
 from gudgeon.studies.ensemble.libraries import get_method_for_scene
-from gudgeon.studies.ensemble.notes import collect_guess_notes
+from gudgeon.studies.ensemble.notes import collect_start_deviation_warnings
 from gudgeon.studies.ensemble.parameter_values import ROUNDING, check_expression, evaluate_expression_for_runs
 
 if TYPE_CHECKING:
@@ -136,7 +136,7 @@ class _NeighbourComputation:
         """
         computed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
-        with collect_guess_notes(self.simulation.source, self.job.first_run):
+        with collect_start_deviation_warnings(self.simulation.source, self.job.first_run):
             try:
                 for measure in measures:
                     key = (str(measure.of), measure.window)

@@ -65,7 +65,7 @@ def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
 
 
 @contextmanager
-def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[str, Note]]:
+def collect_start_deviation_warnings(source: KernelSource, first_run: int) -> Iterator[dict[str, Note]]:
     """Collect the warnings about assembled starts that deviate from their guesses, in place of a warning for each
     block.
 

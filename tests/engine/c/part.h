@@ -10,7 +10,7 @@
 #pragma weak accept_state
 #pragma weak constraints
 #pragma weak has_drive_jump
-#pragma weak convert_from_absolute
+#pragma weak convert_absolute_to_integrated
 #pragma weak jacobian
 #pragma weak linearize_state
 #pragma weak mass_matrix
@@ -20,7 +20,7 @@
 #pragma weak read_discrete_state
 #pragma weak has_equal_start_parameters
 #pragma weak start_values
-#pragma weak convert_to_absolute
+#pragma weak convert_integrated_to_absolute
 #pragma weak compute_velocity_residuals
 #pragma weak velocity_rhs
 #pragma weak gudgeon_audit_samples
