@@ -1,4 +1,6 @@
-"""Define rotors, an engine's bearing and a drill string for simulations without gudgeon: laws, loads, starts.
+"""Define rotors, an engine's bearing and a drill string that reference programs simulate independently of gudgeon.
+
+This file owns their force laws, loads and initial states.
 
 The film of a short bearing is integrated by quadrature, without the line of centres. With u(φ) radially outwards
 the gap is h = c − e·u, and seen from a frame that turns with the mean of both surfaces it closes with the velocity

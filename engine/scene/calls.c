@@ -215,7 +215,8 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *dis
 
 #ifdef WALLS
 /*
- * Sum the contact forces at the corners of each slider in a guide with play into `reaction`: force in N, and moment
+ * Sum the contact forces at the corners of each slider in a guide with play (WALLS of them) into `reaction`: force in
+ * N, and moment
  * about the slider's point in N m. That point is the midpoint of the first and the last corner, which are opposite.
  */
 static void sum_corner_forces(const Clearance *corner_clearances, double *reaction)

@@ -1,4 +1,4 @@
-"""Pivots of a KKT system: thresholds, tests for small pivots, and which intermediate values become variables."""
+"""Pivots of a KKT system: thresholds, tests for small pivots, and which values become local variables of the C code."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""Defines the interface of a force element: its keys, its forces, and what else its file declares. Each other file of
-this folder is one kind and exports `ELEMENT`.
+"""Defines the interface of a force element: its keys, its forces and its potential energy.
+
+Each other file of this folder is one kind and exports `ELEMENT`.
 
 As with joints and laws, nothing here imports SymPy at the top. `build(target_frames, element_fields)` gets one
 PointFrame for each target and the element's numbers, and returns a `Loads`.

@@ -1,5 +1,6 @@
-"""Defines the interface of a joint type: its keys, its constraint equations, and what else its file declares. Each
-other file of this folder is one joint type and exports `JOINT`.
+"""Defines the interface of a joint type: its keys, its constraint equations and its symbol in drawings.
+
+Each other file of this folder is one joint type and exports `JOINT`.
 
 As with laws, nothing here imports SymPy at the top: the reader needs only the YAML fields.
 """

@@ -1,5 +1,6 @@
-"""Defines the interface of a force law: its parameters, its equations, and what else its file declares. Each other file
-of this folder is one law and exports `LAW`.
+"""Defines the interface of a force law: its parameters, its equations, its source and the limits of its use.
+
+Each other file of this folder is one law and exports `LAW`.
 
 Law files import no SymPy at the top: reading a YAML file needs a law's parameters and options, not its equations.
 """
