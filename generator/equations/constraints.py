@@ -15,7 +15,7 @@ from gudgeon.generator.ir.finite_slopes import FrozenSign
 from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, convert_to_sympy
-from gudgeon.generator.symbols.storage import Freezable, Place
+from gudgeon.generator.symbols.storage import Freezable, StorageLocation
 from gudgeon.generator.symbols.switches import BranchSign, DifferentiableMax, DifferentiableMin, Select
 from gudgeon.language.functions import WITH_SWITCHING_POINTS
 from gudgeon.language.tree import list_functions
@@ -48,7 +48,7 @@ class Constraints(Freezable):
         `geometry` supplies the symbols and points; the symbol of time is made here.
         """
         self.geometry, self.symbols = geometry, geometry.symbols
-        self.t = self.symbols.add_symbol("time", Place("t"), "time", "s")
+        self.t = self.symbols.add_symbol("time", StorageLocation("t"), "time", "s")
         self.drive_functions: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def derive_joint_rows(self, joint: Joint) -> list[Row]:

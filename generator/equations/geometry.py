@@ -13,7 +13,7 @@ import sympy as sp
 
 from gudgeon.generator.mechanism import GROUND, Body, PointRef, Scene, Vector, is_massless
 from gudgeon.generator.symbols.parameter_table import ParameterTable
-from gudgeon.generator.symbols.storage import Freezable, Place
+from gudgeon.generator.symbols.storage import Freezable, StorageLocation
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
@@ -131,7 +131,7 @@ class Geometry(Freezable):
         new, first_index, name = self.symbols.add_symbol, 3 * index, body.name
         (x, y, theta), (vx, vy, omega) = (
             [
-                new(f"{name}_{coordinate}", Place(array)[first_index + k], f"{name}.{coordinate}")
+                new(f"{name}_{coordinate}", StorageLocation(array)[first_index + k], f"{name}.{coordinate}")
                 for k, coordinate in enumerate(coordinates)
             ]
             for array, coordinates in (("q", ("x", "y", "theta")), ("v", ("vx", "vy", "omega")))

@@ -10,20 +10,20 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.ir.values import NO_NAMES, Names
 from gudgeon.generator.symbols.derivatives import find_operation_classes
-from gudgeon.generator.symbols.storage import Key, Place
+from gudgeon.generator.symbols.storage import Key, StorageLocation
 from gudgeon.generator.symbols.switches import BranchOf, Select
 
 
 @dataclass(frozen=True)
-class ReturnIfOnlyJoints(Line):
+class ReturnIfOnlyJoints(Instruction):
     """The end of a function if no accelerations are requested: the joints with play have been evaluated."""
 
 
 @dataclass(frozen=True)
-class Branch(Line):
+class Branch(Instruction):
     """A conditional assignment of `then` or `otherwise` by the sign of a switching function.
 
     `target` is `otherwise` where the function is below zero, else `then`, also at NaN.
@@ -59,7 +59,7 @@ class Branch(Line):
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """Return the name of the array or argument to which the value is stored, in a set; empty for a local."""
-        return self.target.names if isinstance(self.target, Place) else NO_NAMES
+        return self.target.names if isinstance(self.target, StorageLocation) else NO_NAMES
 
     @property
     def declared_local(self) -> str:  # type: ignore[override]
@@ -82,7 +82,7 @@ class Branches:
         self._used_names = set(used_names)
         self._switching_functions: dict[sp.Expr, sp.Expr] = {}  # branches, and the difference whose sign each is
 
-    def insert_branches(self, lines: Iterable[Line]) -> list[Line]:
+    def insert_branches(self, lines: Iterable[Instruction]) -> list[Instruction]:
         """Return the lines of a section with a `Branch` line before the first line that reads each conditional value.
 
         A conditional value is a `Select`, one of two expressions by the sign of a switching function. An assignment
@@ -90,7 +90,7 @@ class Branches:
         switching function of each local that is assigned a frozen branch (`BranchOf`) is recorded. Called once per
         section, in order.
         """
-        result: list[Line] = []
+        result: list[Instruction] = []
         for line in lines:
             if isinstance(line, Statement) and isinstance(line.value, Select) and self._needs_branch_line(line.value):
                 for argument in line.value.args:
@@ -106,14 +106,14 @@ class Branches:
                 self._switching_functions[sp.Symbol(line.declared_local, real=True)] = line.value.args[1]
         return result
 
-    def _make_branch_lines(self, expression: sp.Basic) -> list[Line]:
+    def _make_branch_lines(self, expression: sp.Basic) -> list[Instruction]:
         """Return a `Branch` line for each `Select` (conditional value) without a name, inner ones first.
 
         The new names are added to `names`; a `Select` between two numbers gets none.
         """
         if Select not in find_operation_classes(expression):
             return []
-        result: list[Line] = []
+        result: list[Instruction] = []
         for part in sp.postorder_traversal(expression):
             if isinstance(part, Select) and self._needs_branch_line(part):
                 self.names[part] = self._make_branch_name(part)

@@ -14,9 +14,9 @@ import sympy as sp
 
 from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, remove_unused_locals
 from gudgeon.generator.ir.signatures import Access, Argument
-from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
+from gudgeon.generator.ir.statements import Call, Declare, Guard, Instruction, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
+from gudgeon.generator.symbols.storage import Key, PlaceSymbol, StorageLocation, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 SUFFIX, IMAGINARY = "_complex", "_i"
@@ -41,7 +41,7 @@ class _ComplexConverter:
         """Begin with the kernel, the keys of complex arguments and arrays, and the names of zero arguments."""
         self.source, self.complex_keys, self.zero_arguments = kernel, complex_keys, zero_arguments
         self.complex_locals: set[str] = set()
-        self.pending_locals: list[Line] = []  # auxiliary locals that the next line reads
+        self.pending_locals: list[Instruction] = []  # auxiliary locals that the next line reads
         self.counts = {"size": 0, "divisor": 0, "factor": 0}
 
     def convert_kernel(self) -> Kernel:
@@ -81,7 +81,7 @@ class _ComplexConverter:
             return [argument, replace(argument, name=argument.name + IMAGINARY)]
         return [argument]
 
-    def _convert_line(self, line: Line) -> list[Line]:
+    def _convert_line(self, line: Instruction) -> list[Instruction]:
         """Return the lines of real numbers that replace a line, preceded by the locals that they read.
 
         These were collected in `pending_locals`, which is emptied.
@@ -100,7 +100,7 @@ class _ComplexConverter:
         self.pending_locals.append(Statement(local.name, value))
         return local
 
-    def _split_line(self, line: Line) -> list[Line]:
+    def _split_line(self, line: Instruction) -> list[Instruction]:
         """Return the lines of real numbers that replace a line; locals that they read go to `pending_locals`.
 
         A statement becomes one for each part, the test of a pivot one of |real| + |imaginary|. A declared array gets
@@ -121,11 +121,11 @@ class _ComplexConverter:
                 return [line]
         raise ValueError(f"a line of a kernel has no complex counterpart: {line}")
 
-    def _is_complex(self, line: Line) -> bool:
+    def _is_complex(self, line: Instruction) -> bool:
         """Return whether any expression of a line contains a symbol with an imaginary part."""
         return any(self._split_symbol(s) for x in line.expressions for s in x.free_symbols)
 
-    def _split_statement(self, line: Statement) -> list[Line]:
+    def _split_statement(self, line: Statement) -> list[Instruction]:
         """Return the assignments of the real and of the imaginary part of a statement.
 
         A local with imaginary part 0 stays single; otherwise it becomes complex for all later lines. An element of a
@@ -147,7 +147,7 @@ class _ComplexConverter:
         The value is a storage location, a `Conditional` or an expression. Raise ValueError for other kinds of values.
         """
         match value:
-            case Place():
+            case StorageLocation():
                 return self._split_storage_location(value) or (value, ZERO)
             case Conditional():
                 then, otherwise = self.split_expression(value.then), self.split_expression(value.otherwise)
@@ -157,14 +157,17 @@ class _ComplexConverter:
                 return self.split_expression(value)
         raise ValueError(f"a value of a kernel has no complex counterpart: {value}")
 
-    def _split_storage_location(self, place: Key) -> tuple[Place, Place] | None:
+    def _split_storage_location(self, place: Key) -> tuple[StorageLocation, StorageLocation] | None:
         """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.
 
         Return None if `place` (a storage location or the name of a local) is not an element of a complex array.
         """
         match place:
-            case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex_keys:
-                return Place(base, (*path, 2 * k)), Place(base, (*path, 2 * k + 1))
+            case StorageLocation(base, (*path, int() as k)) if {
+                base,
+                StorageLocation(base, (*path,)),
+            } & self.complex_keys:
+                return StorageLocation(base, (*path, 2 * k)), StorageLocation(base, (*path, 2 * k + 1))
         return None
 
     def _split_symbol(self, symbol: sp.Symbol) -> Parts | None:
@@ -236,7 +239,7 @@ class _ComplexConverter:
         real, imaginary = (x if (-x).is_Symbol or x.is_Symbol else self._make_local("factor", x) for x in parts)
         return real, imaginary
 
-    def _convert_guard(self, line: Guard, test: Test) -> list[Line]:
+    def _convert_guard(self, line: Guard, test: Test) -> list[Instruction]:
         """Return the test of a pivot, in a list, with |real| + |imaginary| of the value in place of its magnitude.
 
         Complex magnitudes in the bound are replaced too. The line stays as it is if the tested value is real.

@@ -12,7 +12,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.storage import Key, Place, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, find_value_key
 from gudgeon.generator.symbols.switches import Select
 
 Criteria = frozenset[str]
@@ -24,7 +24,7 @@ class SliceMembership:
     """The slicing criteria of each line of a function, by what it stores to, and of the parameters that it reads."""
 
     by_target: Mapping[Key, Criteria]
-    by_parameter: Mapping[Place, Criteria]
+    by_parameter: Mapping[StorageLocation, Criteria]
 
 
 def compute_backward_slices(
@@ -39,7 +39,9 @@ def compute_backward_slices(
     """
     criteria_by_name: defaultdict[Key, set[str]] = defaultdict(set)
     criteria_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
-    name_of_place: dict[Key, Key] = {place: name for name, place in function.names.items() if isinstance(place, Place)}
+    name_of_place: dict[Key, Key] = {
+        place: name for name, place in function.names.items() if isinstance(place, StorageLocation)
+    }
     for section in reversed(function.sections):
         for line in reversed(section.statements):
             if not isinstance(line, (Statement, Branch)):
@@ -49,10 +51,10 @@ def compute_backward_slices(
             criteria_of_stored[line.target] |= line_criteria
             for key in _find_used_variables(line, function):
                 criteria_by_name[key] |= line_criteria
-    criteria_of_parameters: defaultdict[Place, set[str]] = defaultdict(set)
+    criteria_of_parameters: defaultdict[StorageLocation, set[str]] = defaultdict(set)
     for name, line_criteria in criteria_by_name.items():
         place = function.names.get(name, name)
-        if isinstance(place, Place) and place.is_parameter:
+        if isinstance(place, StorageLocation) and place.is_parameter:
             criteria_of_parameters[place] |= line_criteria
     return SliceMembership(_freeze_sets(criteria_of_stored), _freeze_sets(criteria_of_parameters))
 
@@ -65,7 +67,7 @@ def _find_used_variables(line: Statement | Branch, function: Readable) -> set[Ke
     keys = {find_value_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(
         line.reads
     )
-    if isinstance(line, Statement) and isinstance(line.value, Place):
+    if isinstance(line, Statement) and isinstance(line.value, StorageLocation):
         keys.add(line.value)
     for expression in line.expressions:
         if function.branches and expression.has(Select):

@@ -102,7 +102,7 @@ class Tangents:
         n_known = len(self._branches)
         fixed = self._symbols.switches.freeze_branches(expression, self._owner, self._branches)
         for branch, value in list(self._branches.items())[n_known:]:
-            self._builder.append_line(Statement(branch.name, value.xreplace(self._symbol_map)))
+            self._builder.append_instruction(Statement(branch.name, value.xreplace(self._symbol_map)))
         return fixed.xreplace(self._symbol_map)
 
     def compute_gradient(self, expression: sp.Expr, value_symbol: sp.Symbol | None = None) -> Tangent:

@@ -14,10 +14,10 @@ import sympy as sp
 
 from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.signatures import Argument
-from gudgeon.generator.ir.statements import DeclareBranches, Line, SolveDependentRows, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, Instruction, SolveDependentRows, Statement
 from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, make_real_symbol
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, StorageLocation, make_real_symbol
 from gudgeon.generator.symbols.switches import BranchOf, Switches
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
 
@@ -29,7 +29,7 @@ class Section:
     """A titled group of lines of a function."""
 
     title: str
-    statements: tuple[Line, ...]
+    statements: tuple[Instruction, ...]
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ def freeze_branches(
     branches: dict[sp.Symbol, sp.Expr] = {}
     result = []
     for section in sections:
-        statements: list[Line] = []
+        statements: list[Instruction] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
@@ -150,13 +150,13 @@ def freeze_branches(
     return result
 
 
-def remove_unused_lines(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
+def remove_unused_lines(lines: Sequence[Instruction], read_names: set[str]) -> list[Instruction]:
     """Return the lines, in order, without those that define a local which no later line reads (dead-code elimination).
 
     `read_names` is changed in place: on entry the names that lines after these read, on return also those that these
     lines read.
     """
-    result: list[Line] = []
+    result: list[Instruction] = []
     for line in reversed(lines):
         if line.declared_local and line.declared_local not in read_names:
             continue
@@ -165,7 +165,7 @@ def remove_unused_lines(lines: Sequence[Line], read_names: set[str]) -> list[Lin
     return result[::-1]
 
 
-def change_expression(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
+def change_expression(line: Instruction, change: Callable[[sp.Basic], Value]) -> Instruction:
     """Return a line with `change(expression)` in place of its expression, if it is a statement with one.
 
     Other lines are returned unchanged.
@@ -207,7 +207,7 @@ class KernelBuilder:
     def __init__(self, symbols: Symbols, name: str, doc: Sequence[str]) -> None:
         """Begin a function with a name and the lines of its comment."""
         self._symbols, self._name, self._doc = symbols, name, tuple(doc)
-        self._sections: list[tuple[str, list[Line]]] = []
+        self._sections: list[tuple[str, list[Instruction]]] = []
 
     @property
     def has_jumps(self) -> bool:
@@ -218,7 +218,7 @@ class KernelBuilder:
         """Begin a section with a title."""
         self._sections.append((title, []))
 
-    def append_line(self, line: Line) -> None:
+    def append_instruction(self, line: Instruction) -> None:
         """Append a line to the current section; a local that it declares must have an unused name."""
         self._sections[-1][1].append(line)
 
@@ -231,7 +231,7 @@ class KernelBuilder:
         self._sections[-1][1].append(Statement(unique, value, comment))
         return make_real_symbol(unique)
 
-    def append_store(self, target: Place, value: Value, comment: str = "") -> None:
+    def append_store(self, target: StorageLocation, value: Value, comment: str = "") -> None:
         """Append a statement that stores a value at a place of an argument or array."""
         self._sections[-1][1].append(Statement(target, value, comment))
 
@@ -311,7 +311,7 @@ class KernelBuilder:
         return [s for s in ordered if not info[s].place], [s for s in ordered if info[s].place]
 
 
-def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
+def _prune_sections(sections: Iterable[tuple[str, Sequence[Instruction]]]) -> list[tuple[str, list[Instruction]]]:
     """Return the sections, as pairs of title and lines, without locals that no later line reads; titles stay."""
     read_names: set[str] = set()
     return [(title, remove_unused_lines(lines, read_names)) for title, lines in reversed(list(sections))][::-1]
@@ -335,7 +335,7 @@ def remove_unused_locals(kernel: Kernel) -> Kernel:
 class ValuePool:
     """Values of one function that others read; `store_value` stores a value and returns the symbol that reads it."""
 
-    def __init__(self, symbols: Symbols, array: Place) -> None:
+    def __init__(self, symbols: Symbols, array: StorageLocation) -> None:
         """Begin an empty pool whose values are stored in consecutive elements of `array`."""
         self._symbols, self.array = symbols, array
         self._symbols_by_value: dict[sp.Expr, sp.Symbol] = {}

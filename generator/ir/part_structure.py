@@ -14,9 +14,9 @@ import sympy as sp
 from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
-from gudgeon.generator.ir.statements import Guard, Line, Return, Statement
+from gudgeon.generator.ir.statements import Guard, Instruction, Return, Statement
 from gudgeon.generator.ir.values import ContinuedSum, Test
-from gudgeon.generator.symbols.storage import Key, Place
+from gudgeon.generator.symbols.storage import Key, StorageLocation
 
 _FIRST_PLACEHOLDER, _PLACEHOLDERS_OF_OPERAND = 10**9, 100  # above all indices; above all lengths of paths
 
@@ -44,7 +44,7 @@ class PartStructure:
 
     def list_placeholders(self) -> list[int]:
         """Return the placeholders of all operands; parts of equal `key` have the same ones."""
-        sizes = (len(operand.path) if isinstance(operand, Place) else 1 for operand in self.operands)
+        sizes = (len(operand.path) if isinstance(operand, StorageLocation) else 1 for operand in self.operands)
         return [_compute_placeholder(k, step) for k, size in enumerate(sizes) for step in range(size)]
 
     def get_replaced_value(self, placeholder: int) -> int | str:
@@ -53,7 +53,7 @@ class PartStructure:
         operand = self.operands[k]
         if isinstance(operand, _ReturnedStatus):
             return operand.number
-        assert isinstance(operand, Place)
+        assert isinstance(operand, StorageLocation)
         return operand.path[step]
 
     def insert_placeholders(self, readable: Readable) -> Readable:
@@ -62,16 +62,17 @@ class PartStructure:
         A placeholder is a number that no index has. Parts of equal structure then have equal texts.
         """
         number_by_operand = {operand: k for k, operand in enumerate(self.operands)}
-        location_with_placeholders: dict[Key, Place] = {
+        location_with_placeholders: dict[Key, StorageLocation] = {
             place: _insert_index_placeholders(place, k)
             for place, k in number_by_operand.items()
-            if isinstance(place, Place)
+            if isinstance(place, StorageLocation)
         }
         names = {
-            x: location_with_placeholders.get(y, y) if isinstance(y, Place) else y for x, y in readable.names.items()
+            x: location_with_placeholders.get(y, y) if isinstance(y, StorageLocation) else y
+            for x, y in readable.names.items()
         }
 
-        def insert_status_placeholder(line: Line) -> Line:
+        def insert_status_placeholder(line: Instruction) -> Instruction:
             """Return a line with a placeholder for its status, if it is a test of a pivot; others unchanged."""
             if not isinstance(line, Guard):
                 return line
@@ -104,7 +105,7 @@ def find_part_structure(part: Kernel) -> PartStructure | None:
     copies = {
         line.declared_local: line.value
         for line in lines
-        if isinstance(line, Statement) and line.declared_local and isinstance(line.value, Place)
+        if isinstance(line, Statement) and line.declared_local and isinstance(line.value, StorageLocation)
     }
     finder = _StructureFinder(part, copies, {line.declared_local for line in lines})
     try:
@@ -115,12 +116,12 @@ def find_part_structure(part: Kernel) -> PartStructure | None:
     return PartStructure(key, tuple(finder.number_by_operand))
 
 
-def _is_parameter_member(place: Place) -> bool:
+def _is_parameter_member(place: StorageLocation) -> bool:
     """Return whether a place is a parameter of the run that is not an array."""
     return place.is_parameter and len(place.path) == 1
 
 
-def _insert_index_placeholders(place: Place, k: int) -> Place:
+def _insert_index_placeholders(place: StorageLocation, k: int) -> StorageLocation:
     """Return operand k, a storage location, with placeholders for its indices, or for its parameter."""
     if _is_parameter_member(place):
         return replace(place, path=(format_parameter_placeholder(_compute_placeholder(k)),))
@@ -131,11 +132,11 @@ def _insert_index_placeholders(place: Place, k: int) -> Place:
 class _StructureFinder:
     """Describe the lines of a part; `number_by_operand` numbers its locals, places and statuses in their order."""
 
-    def __init__(self, part: Kernel, copies: Mapping[str, Place], declared_locals: set[str]) -> None:
+    def __init__(self, part: Kernel, copies: Mapping[str, StorageLocation], declared_locals: set[str]) -> None:
         self._names, self._copies, self._declared_locals = part.names, copies, declared_locals
         self.number_by_operand: dict[Operand, int] = {}
 
-    def describe_line(self, line: Line) -> Hashable:
+    def describe_line(self, line: Instruction) -> Hashable:
         """Return the structure of a line; that of a copy is part of the lines that read it."""
         match line:
             case Statement() if line.declared_local in self._copies:
@@ -158,13 +159,13 @@ class _StructureFinder:
 
         A local that copies a storage location has that of the location too.
         """
-        if isinstance(key, Place):
+        if isinstance(key, StorageLocation):
             return self._describe_place(key)
         if key in self._copies:
             return self._number(key), self._describe_place(self._copies[key])
         return self._number(key) if key in self._declared_locals else self._names.get(key, key)
 
-    def _describe_place(self, place: Place) -> Hashable:
+    def _describe_place(self, place: StorageLocation) -> Hashable:
         """Return the structure of a storage location: its path without indices, and without a parameter's name."""
         if not place.path:
             return type(place), self._describe_key(place.base)
@@ -174,7 +175,7 @@ class _StructureFinder:
     def _describe_value(self, value: object) -> Hashable:
         """Return the structure of a value. Raise _NotComparableError for a class that is not described."""
         match value:
-            case Place():
+            case StorageLocation():
                 return self._describe_place(value)
             case ContinuedSum():
                 return ContinuedSum, self._describe_value(value.first), self._describe_value(value.more)

@@ -15,8 +15,8 @@ import sympy as sp
 
 from gudgeon.generator.ir.branches import Branches
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Key, Place, make_real_symbol
+from gudgeon.generator.ir.statements import Instruction, Statement
+from gudgeon.generator.symbols.storage import Key, StorageLocation, make_real_symbol
 
 _DENOMINATORS = tuple(k for k in range(1, 361) if 360 % k == 0)  # whole and half degrees, turns in a minute
 _MAX_NUMERATOR = 1000  # times PI
@@ -122,16 +122,18 @@ def make_readable_statements(statements: Sequence[Statement]) -> Readable:
     return make_readable(Kernel("", (), (), (Section("", tuple(statements)),)))
 
 
-def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
+def _remove_copies(
+    lines: Sequence[Instruction], arguments: Collection[str], names: dict[Key, Key]
+) -> list[Instruction]:
     """Return the lines without locals that are copies of arguments or parameters.
 
     `names` is changed in place: it maps each removed local to the storage location that is read instead. The
     assignment of a local that the next line stores to a parameter is merged with that line.
     """
-    result: list[Line] = []
+    result: list[Instruction] = []
     for line in lines:
         place = line.value if isinstance(line, Statement) and line.declared_local else None
-        if isinstance(place, Place) and (place.is_parameter or (not place.path and place.base in arguments)):
+        if isinstance(place, StorageLocation) and (place.is_parameter or (not place.path and place.base in arguments)):
             names[line.declared_local] = place
             continue
         if result and (merged := _merge_copy_to_parameter(result[-1], line)):
@@ -142,14 +144,14 @@ def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dic
     return result
 
 
-def _merge_copy_to_parameter(assignment: Line, copy_line: Line) -> Statement | None:
+def _merge_copy_to_parameter(assignment: Instruction, copy_line: Instruction) -> Statement | None:
     """Return `p.x = value` for the successive lines `y = value` and `p.x = y`, where p.x is a parameter of the run.
 
     Return None for all other pairs of lines.
     """
     if not (isinstance(assignment, Statement) and isinstance(copy_line, Statement) and assignment.declared_local):
         return None
-    if not (isinstance(copy_line.target, Place) and copy_line.target.is_parameter):
+    if not (isinstance(copy_line.target, StorageLocation) and copy_line.target.is_parameter):
         return None
     is_copy = copy_line.value == make_real_symbol(assignment.declared_local)
     return replace(assignment, target=copy_line.target) if is_copy else None

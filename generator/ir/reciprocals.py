@@ -12,7 +12,7 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import PlaceSymbol
 
@@ -72,7 +72,7 @@ def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
 
     result = []
     for section in sections:
-        lines: list[Line] = []
+        lines: list[Instruction] = []
         for line in section.statements:
             if isinstance(line, Statement) and isinstance(line.value, sp.Expr) and line.value.has(sp.Pow):
                 for part in sp.postorder_traversal(line.value):

@@ -15,9 +15,9 @@ from functools import lru_cache
 import sympy as sp
 
 from gudgeon.generator.ir.expression_structure import find_expression_structure
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Key, Place, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, find_value_key
 
 MIN_REPETITIONS = 3  # of a group for which a function with index tables is shorter
 
@@ -94,7 +94,7 @@ def _replace_symbol_pairs(symbols: Sequence[int], new_symbols: Mapping[Pair, int
     return result
 
 
-def make_line_structure_key(line: Line, copies: Mapping[str, Line]) -> Hashable:
+def make_line_structure_key(line: Instruction, copies: Mapping[str, Instruction]) -> Hashable:
     """Return the structure of a statement or of a test of a pivot, without the names of its operands.
 
     `copies`: the statements that copy arguments, by the name of their local. Lines of one shape usually differ in
@@ -111,12 +111,16 @@ def _find_place_kind(value: object) -> Hashable:
 
     A parameter gives the name of its struct, a value that is no location "".
     """
-    if isinstance(value, Place) and value.is_parameter:
+    if isinstance(value, StorageLocation) and value.is_parameter:
         return value.base
-    return (value.base, *(step for step in value.path if isinstance(step, str))) if isinstance(value, Place) else ""
+    return (
+        (value.base, *(step for step in value.path if isinstance(step, str)))
+        if isinstance(value, StorageLocation)
+        else ""
+    )
 
 
-def _make_cached_structure_key(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
+def _make_cached_structure_key(expression: sp.Basic, copies: Mapping[str, Instruction]) -> Hashable:
     """Return `_make_structure_key`, which is derived once for expressions of equal structure and kinds of operands."""
     if (found := find_expression_structure(expression)) is None:
         return _make_structure_key(expression, copies)
@@ -127,13 +131,13 @@ def _make_cached_structure_key(expression: sp.Basic, copies: Mapping[str, Line])
     return key
 
 
-def _find_operand_kind(key: Key, copies: Mapping[str, Line]) -> Hashable:
+def _find_operand_kind(key: Key, copies: Mapping[str, Instruction]) -> Hashable:
     """Return the kind of storage location that an operand is or copies; "" for a local that copies none."""
-    copy = key if isinstance(key, Place) else copies.get(key)
+    copy = key if isinstance(key, StorageLocation) else copies.get(key)
     return _find_place_kind(copy.value if isinstance(copy, Statement) else copy)
 
 
-def _make_structure_key(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
+def _make_structure_key(expression: sp.Basic, copies: Mapping[str, Instruction]) -> Hashable:
     """Return the structure of an expression as nested tuples, with the kind of storage location for each symbol.
 
     Expressions with equal keys differ in names only. A local that copies no argument gives "". Terms of a sum and

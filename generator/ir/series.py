@@ -45,10 +45,19 @@ from gudgeon.generator.ir.signatures import (
     make_input_argument,
     make_output_argument,
 )
-from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Return, SolveDependentRows, Statement, Status
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_value_key
+from gudgeon.generator.ir.statements import (
+    Call,
+    Guard,
+    Instruction,
+    Jump,
+    Return,
+    SolveDependentRows,
+    Statement,
+    Status,
+)
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation, find_value_key
 
-SectionLine = tuple[str, Line]  # a line and its section's title
+SectionLine = tuple[str, Instruction]  # a line and its section's title
 
 
 def split_sums_by_depth(lines: Iterable[SectionLine], make_unique_name: Callable[[str], str]) -> list[SectionLine]:
@@ -112,7 +121,7 @@ def find_angle_differences(statements: Iterable[Statement]) -> dict[str, tuple[s
 
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
-FindPlace = Callable[[Place], Place | None]  # place of a result; None: it is not requested
+FindPlace = Callable[[StorageLocation], StorageLocation | None]  # place of a result; None: it is not requested
 _SKIPPED_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and the values that higher orders need.",
@@ -179,7 +188,7 @@ def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[SectionLin
     for section in kernel.sections:
         for line in section.statements:
             line = _replace_places(line, symbol_of_place)
-            if isinstance(line, Statement) and isinstance(stored_place := line.target, Place):
+            if isinstance(line, Statement) and isinstance(stored_place := line.target, StorageLocation):
                 name = "".join(
                     character if character.isalnum() else "_" for character in str(stored_place).replace(".", "__")
                 ).strip("_")
@@ -193,7 +202,7 @@ def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[SectionLin
     return _prune_lines(lines)
 
 
-def _replace_places(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+def _replace_places(line: Instruction, local: Mapping[sp.Basic, sp.Basic]) -> Instruction:
     """Return a line in whose expression the symbols of places are replaced by those of locals."""
     return change_expression(line, lambda value: value.xreplace(local))
 
@@ -217,7 +226,7 @@ class _SeriesBuilder(Rules):
         }
         self._title, self._linear = "", linear
 
-    def convert_line(self, title: str, line: Line) -> None:
+    def convert_line(self, title: str, line: Instruction) -> None:
         """Convert the next line of the kernel and append it to both functions, of order 0 and of order k.
 
         The test of a pivot is appended to order 0 alone, and a return is skipped. Raise NoTaylorSeries for other lines
@@ -225,7 +234,7 @@ class _SeriesBuilder(Rules):
         """
         self._title = title
         match line:
-            case Statement(value=Place() as place):
+            case Statement(value=StorageLocation() as place):
                 self._add_input_line(line, place)
             case Statement(value=sp.Expr() as value):
                 self._add_assignment(line, value)
@@ -236,7 +245,7 @@ class _SeriesBuilder(Rules):
             case _:
                 raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is not an expression")
 
-    def _add_input_line(self, line: Statement, place: Place) -> None:
+    def _add_input_line(self, line: Statement, place: StorageLocation) -> None:
         """Append a line that reads time, state or a parameter at the storage location `place` to both functions.
 
         The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
@@ -342,15 +351,17 @@ class _SeriesBuilder(Rules):
                 for expression in line.expressions
                 for s in expression.free_symbols
             }
-            products = [product for product in self.products.values() if Place(SUMS)[product.name] in read_keys]
+            products = [
+                product for product in self.products.values() if StorageLocation(SUMS)[product.name] in read_keys
+            ]
         stored_names = tuple(
-            sorted(name_.member for name_ in read_keys if isinstance(name_, Place) and name_.base == VALUES)
+            sorted(name_.member for name_ in read_keys if isinstance(name_, StorageLocation) and name_.base == VALUES)
         )
         inverses = {name: 1 / b for name, b in self.inverses.items()}
         storing_lines = [
             (
                 "values that higher orders read",
-                Statement(Place(VALUES)[name_], inverses.get(name_, sp.Symbol(name_, real=True))),
+                Statement(StorageLocation(VALUES)[name_], inverses.get(name_, sp.Symbol(name_, real=True))),
             )
             for name_ in stored_names
         ]
@@ -409,7 +420,7 @@ def _prune_lines(lines: list[SectionLine]) -> list[SectionLine]:
 
 def _group_sections(lines: Iterable[SectionLine]) -> tuple[Section, ...]:
     """Return pairs (section title, line) as sections; successive lines with the same title form one section."""
-    sections: list[tuple[str, list[Line]]] = []
+    sections: list[tuple[str, list[Instruction]]] = []
     for title, line in lines:
         if not sections or sections[-1][0] != title:
             sections.append((title, []))

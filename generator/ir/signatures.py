@@ -9,7 +9,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from gudgeon.generator.symbols import storage
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 
 class Number(Enum):
@@ -40,9 +40,9 @@ class Argument:
     type: Type = Number.REAL
     access: Access = Access.VALUE
 
-    def __getitem__(self, step: str | int) -> Place:
+    def __getitem__(self, step: str | int) -> StorageLocation:
         """Return the place of an array element or of a struct's field of the argument."""
-        return Place(self.name)[step]
+        return StorageLocation(self.name)[step]
 
 
 def make_input_argument(name: str, type: Type = Number.REAL) -> Argument:
@@ -67,9 +67,9 @@ CONTACT = make_input_argument("contact", "ContactState")  # of one contact
 ZERO = sp.Integer(0)
 
 
-def make_contact_arguments(index: int) -> tuple[Place, ...]:
+def make_contact_arguments(index: int) -> tuple[StorageLocation, ...]:
     """Return the last arguments of a call of the force function of joint `index` with play, as storage locations.
 
     They are its contact state, the parameters, the frozen branches and the switching functions.
     """
-    return (DISCRETE["contact"][index], *(Place(argument.name) for argument in (PARAMETERS, *BRANCHES)))
+    return (DISCRETE["contact"][index], *(StorageLocation(argument.name) for argument in (PARAMETERS, *BRANCHES)))

@@ -13,13 +13,13 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel, Section, change_expression
-from gudgeon.generator.ir.statements import Line, Sines, Statement
+from gudgeon.generator.ir.statements import Instruction, Sines, Statement
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place, make_real_symbol
+from gudgeon.generator.symbols.storage import StorageLocation, make_real_symbol
 
 _MAX_VECTORS = 4  # groups, beyond which they are computed in a loop
 # Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
-_MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Line], int]]
+_MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Instruction], int]]
 
 
 def vectorize_sines(kernel: Kernel) -> Kernel:
@@ -58,7 +58,7 @@ def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     return replace(kernel, sections=tuple(sections))
 
 
-def _replace_common_sines(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
+def _replace_common_sines(line: Instruction, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Instruction:
     """Return a line with its value replaced by a local if an earlier section computes that cosine or sine.
 
     This eliminates common subexpressions. `known_symbols` gives the symbol of the local by value. Other lines are
@@ -67,7 +67,7 @@ def _replace_common_sines(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]
     return change_expression(line, lambda value: known_symbols.get(value, value))
 
 
-def _find_angle(statement: Line) -> sp.Symbol | None:
+def _find_angle(statement: Instruction) -> sp.Symbol | None:
     """Return the symbol whose cosine or sine a statement assigns; None for all other lines."""
     value = statement.value if isinstance(statement, Statement) else None
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
@@ -117,7 +117,7 @@ def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: 
 
 def _make_vectors(
     angles: Sequence[sp.Symbol], statements: Sequence[Statement], n_vectors: int
-) -> tuple[list[Line], int]:
+) -> tuple[list[Instruction], int]:
     """Return the lines that compute sines and cosines in vectors of four angles, and the new number of vectors.
 
     The lines end with `statements`, which computed them one by one and now read the vectors. `n_vectors`: the number of
@@ -127,29 +127,29 @@ def _make_vectors(
     count = len(padded) // 4
     in_loop, suffix = count > _MAX_VECTORS, f"of_{n_vectors}" if n_vectors else "of"
     if in_loop:
-        lines: list[Line] = [Sines(tuple(padded), suffix, count)]
+        lines: list[Instruction] = [Sines(tuple(padded), suffix, count)]
     else:
         lines = [Sines(tuple(padded[4 * n : 4 * n + 4]), str(n_vectors + n)) for n in range(count)]
     index_by_angle = {angle: k for k, angle in enumerate(angles)}
     for statement in statements:
         n, lane = divmod(index_by_angle[_find_angle(statement)], 4)
         array = "cosines" if isinstance(statement.value, sp.cos) else "sines"
-        vector = Place(f"{array}_{suffix}")[n] if in_loop else Place(f"{array}_{n_vectors + n}")
+        vector = StorageLocation(f"{array}_{suffix}")[n] if in_loop else StorageLocation(f"{array}_{n_vectors + n}")
         lines.append(replace(statement, value=vector[lane]))
     return lines, n_vectors + count
 
 
 def _make_lane_calls(
     angles: Sequence[sp.Symbol], statements: Sequence[Statement], n_angles: int
-) -> tuple[list[Line], int]:
+) -> tuple[list[Instruction], int]:
     """Return a call for each angle with the statements that read its results, and the new number of angles.
 
     A call computes the cosine and sine of an angle in all lanes. `statements`: those that computed the cosines and
     sines one by one; `n_angles`: the number of angles before.
     """
     index_by_angle = {angle: k for k, angle in enumerate(angles, n_angles)}
-    lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in index_by_angle.items()]
+    lines: list[Instruction] = [Sines((angle,), str(k), lanes=True) for angle, k in index_by_angle.items()]
     for statement in statements:
         array = "cosines" if isinstance(statement.value, sp.cos) else "sines"
-        lines.append(replace(statement, value=Place(f"{array}_{index_by_angle[_find_angle(statement)]}")))
+        lines.append(replace(statement, value=StorageLocation(f"{array}_{index_by_angle[_find_angle(statement)]}")))
     return lines, n_angles + len(index_by_angle)

@@ -36,15 +36,15 @@ from gudgeon.generator.ir.statements import (
     Declare,
     DeclareParameters,
     Guard,
+    Instruction,
     Jump,
-    Line,
     Return,
     ReturnIfFailed,
     Sines,
     SolveDependentRows,
     Statement,
 )
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 
 def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_names: Sequence[str]) -> list[int]:
@@ -104,7 +104,7 @@ class LineInSection:
     """A line with its section's title and the names that it reads; `is_movable`: it may stand in a part."""
 
     title: str
-    line: Line
+    line: Instruction
     reads: frozenset[str]  # the array that is written to included
     is_movable: bool
 
@@ -202,15 +202,17 @@ def _list_section_lines(kernel: Kernel) -> tuple[list[LineInSection], dict[str, 
     return section_lines, copies
 
 
-def _is_movable_line(line: Line) -> bool:
+def _is_movable_line(line: Instruction) -> bool:
     """Return whether a line is a statement or a test of a pivot, which may be moved to a part."""
     return isinstance(line, (Statement, Guard))
 
 
-def _find_copied_argument(line: Line) -> str:
+def _find_copied_argument(line: Instruction) -> str:
     """Return the name of the argument or array from which a statement copies to a local; "" for other lines."""
     return (
-        line.value.base if isinstance(line, Statement) and line.declared_local and isinstance(line.value, Place) else ""
+        line.value.base
+        if isinstance(line, Statement) and line.declared_local and isinstance(line.value, StorageLocation)
+        else ""
     )
 
 
@@ -232,7 +234,9 @@ def _list_local_arrays(kernel: Kernel) -> list[Argument]:
     return [make_output_argument(line.name) for line in lines if line.type is Number.REAL and len(line.sizes) == 1]
 
 
-def _divide_lines(section_lines: Sequence[LineInSection], copies: Mapping[str, Line]) -> list[list[LineInSection]]:
+def _divide_lines(
+    section_lines: Sequence[LineInSection], copies: Mapping[str, Instruction]
+) -> list[list[LineInSection]]:
     """Return the lines in segments: each sequence of movable lines divided into parts, other lines between them.
 
     A part has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES becomes unmovable and stays in the
@@ -249,7 +253,9 @@ def _divide_lines(section_lines: Sequence[LineInSection], copies: Mapping[str, L
     return segments
 
 
-def _divide_movable_lines(lines: Sequence[LineInSection], copies: Mapping[str, Line]) -> list[list[LineInSection]]:
+def _divide_movable_lines(
+    lines: Sequence[LineInSection], copies: Mapping[str, Instruction]
+) -> list[list[LineInSection]]:
     """Return movable lines in parts: groups of lines that repeat, and the lines between them in parts of equal length.
 
     The latter have at most _MAX_PART_LINES lines.
@@ -329,7 +335,11 @@ def _outline_dependent_row_terms(
         lines = [LineInSection("", store, store.reads | store.writes, True) for store in stores]
         new = replace(splitter, kernel=kernel)
         functions.append(new.make_part(name, lines))
-        call = Call(name, tuple(Place(a.name) for a in new.list_arguments(lines)), (Place(splitter.array_name),))
+        call = Call(
+            name,
+            tuple(StorageLocation(a.name) for a in new.list_arguments(lines)),
+            (StorageLocation(splitter.array_name),),
+        )
         new_line = replace(line, force=(), rhs=(), call=call)
         return replace(section_line, line=new_line, reads=new_line.reads)
 
@@ -382,7 +392,7 @@ def _insert_argument_copies(
     return result
 
 
-def _find_filled_arrays(line: Line) -> set[str]:
+def _find_filled_arrays(line: Instruction) -> set[str]:
     """Return the names of the arrays of sines and cosines that a line fills in a loop; empty for other lines."""
     return set(line.arrays) if isinstance(line, Sines) and line.count else set()
 
@@ -405,12 +415,12 @@ class _Splitter:
 
     def make_store_line(self, name: str, title: str = "values for later parts") -> LineInSection:
         """Return the line that stores the local `name` in its element of the array of passed values."""
-        statement = Statement(Place(self.array_name, (self.index_of_passed[name],)), Place(name))
+        statement = Statement(StorageLocation(self.array_name, (self.index_of_passed[name],)), StorageLocation(name))
         return LineInSection(title, statement, frozenset((name,)), False)
 
     def make_load_line(self, name: str, title: str = "values from the part") -> LineInSection:
         """Return the line that reads the local `name` of another part from the array of passed values."""
-        place = Place(self.array_name, (self.index_of_passed[name],))
+        place = StorageLocation(self.array_name, (self.index_of_passed[name],))
         return LineInSection(title, Statement(name, place), place.names, False)
 
     def make_reading_line(self, name: str, title: str) -> LineInSection:
@@ -460,13 +470,13 @@ class _Splitter:
         Read are those in `later_read_names`, the names that later lines of the calling function read. If the part tests
         pivots, a status other than 0 ends the function or jumps to the code for a vanishing pivot.
         """
-        arguments = tuple(Place(argument.name) for argument in self.list_arguments(segment))
-        call = Call(name, arguments, (Place(self.array_name),))
+        arguments = tuple(StorageLocation(argument.name) for argument in self.list_arguments(segment))
+        call = Call(name, arguments, (StorageLocation(self.array_name),))
         tests = [section_line.line for section_line in segment if isinstance(section_line.line, Guard)]
         loaded = {section_line.defines for section_line in segment} & later_read_names & self.index_of_passed.keys()
         loads = [self.make_load_line(local) for local in sorted(loaded, key=self.index_of_passed.__getitem__)]
-        lines: list[Line] = [call]
-        status_lines: list[Line] = []
+        lines: list[Instruction] = [call]
+        status_lines: list[Instruction] = []
         if tests:
             jumps = tests[0].jumps
             status = "pivot" if jumps else f"status_{name.rpartition('_')[2]}"

@@ -10,11 +10,11 @@ import sympy as sp
 
 from gudgeon.generator.ir.signatures import Type
 from gudgeon.generator.ir.values import NO_NAMES, Names, Test, Value, find_read_names
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, StorageLocation
 
 
 @dataclass(frozen=True)
-class Line:
+class Instruction:
     """An instruction of a function, printed as one or more lines; base of all kinds, such as `Statement`.
 
     It knows the expressions and names that it reads, the arrays that it writes and the local that it declares.
@@ -40,7 +40,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Statement(Line):
+class Statement(Instruction):
     """An assignment `target = value`; a target that is a string is a local, which is declared here."""
 
     target: Key
@@ -65,7 +65,7 @@ class Statement(Line):
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """Return the name of the array or argument to which the value is stored, in a set; empty for a local."""
-        return self.target.names if isinstance(self.target, Place) else NO_NAMES
+        return self.target.names if isinstance(self.target, StorageLocation) else NO_NAMES
 
     @property
     def declared_local(self) -> str:  # type: ignore[override]
@@ -74,7 +74,7 @@ class Statement(Line):
 
 
 @dataclass(frozen=True)
-class Declare(Line):
+class Declare(Instruction):
     """The declaration of a local array."""
 
     type: Type
@@ -88,12 +88,12 @@ class Declare(Line):
 
 
 @dataclass(frozen=True)
-class Call(Line):
+class Call(Instruction):
     """A call `function(inputs, …, results, …)`; structs are passed by their address."""
 
     function: str
-    inputs: tuple[sp.Basic | Place, ...]
-    results: tuple[Place, ...]
+    inputs: tuple[sp.Basic | StorageLocation, ...]
+    results: tuple[StorageLocation, ...]
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
@@ -103,7 +103,7 @@ class Call(Line):
     @property
     def names(self) -> Names:
         """Return the arguments and arrays that are passed."""
-        return frozenset(x.base for x in self.inputs if isinstance(x, Place))
+        return frozenset(x.base for x in self.inputs if isinstance(x, StorageLocation))
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
@@ -112,7 +112,7 @@ class Call(Line):
 
 
 @dataclass(frozen=True)
-class Guard(Line):
+class Guard(Instruction):
     """A test, or a call that must return 0; if it fails, the function ends with a status number.
 
     Without `jumps` it returns the number. With `jumps` it stores the number as `pivot` and jumps to the code for
@@ -136,7 +136,7 @@ class Guard(Line):
 
 
 @dataclass(frozen=True)
-class When(Line):
+class When(Instruction):
     """A statement that is executed only if a test holds."""
 
     test: Test
@@ -154,7 +154,7 @@ class When(Line):
 
 
 @dataclass(frozen=True)
-class AssignStatus(Line):
+class AssignStatus(Instruction):
     """The call of a part of the function, whose status is assigned to a local or to `pivot`."""
 
     call: Call
@@ -172,7 +172,7 @@ class AssignStatus(Line):
 
 
 @dataclass(frozen=True)
-class ReturnIfFailed(Line):
+class ReturnIfFailed(Instruction):
     """The end of this function if the status of a part is not 0."""
 
     status: str
@@ -180,24 +180,24 @@ class ReturnIfFailed(Line):
 
 
 @dataclass(frozen=True)
-class Return(Line):
+class Return(Instruction):
     """The return with the status: 0, or the number of the pivot that vanished."""
 
     pivot: bool = False
 
 
 @dataclass(frozen=True)
-class Status(Line):
+class Status(Instruction):
     """The declaration of the status: no pivot has vanished yet."""
 
 
 @dataclass(frozen=True)
-class Jump(Line):
+class Jump(Instruction):
     """The jump to the powers, over the code for dependent equations."""
 
 
 @dataclass(frozen=True)
-class SolveDependentRows(Line):
+class SolveDependentRows(Instruction):
     """The code for a vanished pivot, which finds the dependent equations.
 
     It solves by the rank of the equations or, without forces, in absolute coordinates.
@@ -223,7 +223,7 @@ class SolveDependentRows(Line):
 
 
 @dataclass(frozen=True)
-class MaxMagnitude(Line):
+class MaxMagnitude(Instruction):
     """The largest magnitude of some values, ignoring NaN; it is not a switching point of the motion."""
 
     target: str
@@ -241,7 +241,7 @@ class MaxMagnitude(Line):
 
 
 @dataclass(frozen=True)
-class MaxMagnitudeRow(Line):
+class MaxMagnitudeRow(Instruction):
     """The number, from 1, of the value with the largest magnitude, stored in the local `row`."""
 
     values: tuple[sp.Basic, ...]
@@ -254,7 +254,7 @@ class MaxMagnitudeRow(Line):
 
 
 @dataclass(frozen=True)
-class MarkUnused(Line):
+class MarkUnused(Instruction):
     """A mark that a local is deliberately not read: C casts it to void."""
 
     name: str
@@ -266,7 +266,7 @@ class MarkUnused(Line):
 
 
 @dataclass(frozen=True)
-class DeclareBranches(Line):
+class DeclareBranches(Instruction):
     """The declaration of frozen branches, and of where switching functions are written: `output_target`.
 
     It is "" (nowhere), "local" (a local array g that is not read later) or "rhs" (the array g of `rhs`).
@@ -286,7 +286,7 @@ class DeclareBranches(Line):
 
 
 @dataclass(frozen=True)
-class DeclareParameters(Line):
+class DeclareParameters(Instruction):
     """The declaration of p, read from the linearization."""
 
     writes: ClassVar[Names] = frozenset([PARAMETERS])
@@ -298,7 +298,7 @@ class DeclareParameters(Line):
 
 
 @dataclass(frozen=True)
-class Sines(Line):
+class Sines(Instruction):
     """Cosines and sines of angles: a vector of four, `count` vectors in a loop, or one angle of each lane."""
 
     angles: tuple[sp.Symbol, ...]

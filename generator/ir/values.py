@@ -13,7 +13,7 @@ from typing import ClassVar, TypeAlias
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 from gudgeon.generator.symbols.switches import BranchOf, ComparedMagnitude
 
 Names = frozenset[str]
@@ -34,9 +34,9 @@ class Threshold(float):
     """A number in a bound with the name under which every target writes it; C may read it from a `place` instead."""
 
     name: str
-    place: Place | None
+    place: StorageLocation | None
 
-    def __new__(cls, name: str, value: float, place: Place | None = None) -> Threshold:
+    def __new__(cls, name: str, value: float, place: StorageLocation | None = None) -> Threshold:
         """Return the number `value`, named `name` in the text of every target; C may read it from `place` instead."""
         threshold = super().__new__(cls, value)
         threshold.name, threshold.place = name, place
@@ -103,7 +103,7 @@ class Conditional:
 class Sum:
     """A sum of places, in their order."""
 
-    places: tuple[Place, ...]
+    places: tuple[StorageLocation, ...]
     expressions: ClassVar[tuple[sp.Basic, ...]] = ()
 
     @property
@@ -140,4 +140,4 @@ class ParameterOrDefault:
         return (self.default,)
 
 
-Value: TypeAlias = sp.Basic | Place | Conditional | Sum | ContinuedSum | ParameterOrDefault
+Value: TypeAlias = sp.Basic | StorageLocation | Conditional | Sum | ContinuedSum | ParameterOrDefault

@@ -15,7 +15,7 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import ParameterOrDefault
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 
 def make_parameter_table_kernel(model: Model) -> Kernel:
@@ -53,7 +53,7 @@ def make_mass_kernel(model: Model) -> Kernel:
     )
     builder.begin_section("M")
     for k, mass in enumerate(model.masses):
-        builder.append_store(Place("m")[k], mass)
+        builder.append_store(StorageLocation("m")[k], mass)
     return builder.build_kernel((PARAMETERS, make_output_argument("m")))
 
 
@@ -77,7 +77,7 @@ def make_constraint_kernels(model: Model) -> list[Kernel]:
         builder.begin_section("rows")
         for row_index, row in enumerate(model.all_rows):
             builder.append_store(
-                Place(array)[row_index],
+                StorageLocation(array)[row_index],
                 get_value(row),
                 f"{row.name}, {row.unit}{unit_suffix}{_describe_exclusion(model, row)}",
             )
@@ -135,7 +135,7 @@ def _make_jacobian_kernel(model: Model) -> Kernel:
     for row_index, row in enumerate(model.all_rows):
         for q, value in row.phi_q.items():
             builder.append_store(
-                Place("phi_q")[row_index * len(model.q) + column_of[q]], value, f"d {row.name} / d {q.name}"
+                StorageLocation("phi_q")[row_index * len(model.q) + column_of[q]], value, f"d {row.name} / d {q.name}"
             )
     return builder.build_kernel((*STATE[:2], PARAMETERS, make_output_argument("phi_q")))
 
@@ -156,7 +156,7 @@ def make_start_kernel(model: Model) -> Kernel:
     for key, group in list_start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
             builder.append_store(
-                Place(key)[k], sign * model.parameter_table.get_or_add_parameter(quantity), quantity.address
+                StorageLocation(key)[k], sign * model.parameter_table.get_or_add_parameter(quantity), quantity.address
             )
     arguments = (PARAMETERS, *(make_output_argument(key) for key in ("guess", "set", "rates")))
     return builder.build_kernel(arguments)

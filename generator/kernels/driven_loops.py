@@ -32,7 +32,7 @@ from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.ir.statements import DeclareBranches, MarkUnused, MaxMagnitudeRow, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareSystem
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.symbols.switches import BranchOf
 
 ZERO = sp.Integer(0)
@@ -104,7 +104,7 @@ class DrivenLoopKernels:
         first_index = self.first + len(self.loops.names)
         symbols = [symbol for direction in self.loops.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
-            builder.append_store(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
+            builder.append_store(StorageLocation("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
         return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("out")), owner="")
 
     def _derive_length_scale(self) -> sp.Expr:
@@ -138,7 +138,7 @@ class DrivenLoopKernels:
         named_rows = zip(self.square.names, self.loops.rows, strict=True)
         phi = [builder.append_local(f"phi_{name}", row.phi) for name, row in named_rows]
         builder.begin_section("the largest")
-        builder.append_line(MaxMagnitudeRow(tuple(phi)))
+        builder.append_instruction(MaxMagnitudeRow(tuple(phi)))
         solvers = self.square.factorize(builder)
         builder.begin_section("Newton's step")
         newton = self.square.solve(builder, solvers, phi, "newton")
@@ -147,9 +147,9 @@ class DrivenLoopKernels:
             builder, solvers, [self._compute_curvature(row, newton) / 2 for row in self.loops.rows], "bend"
         )
         for k, (newton_component, correction) in enumerate(zip(newton, correction_step, strict=True)):
-            builder.append_store(Place("step")[k], newton_component + correction)
-            builder.append_store(Place("bend")[k], correction)
-        builder.append_line(Return())
+            builder.append_store(StorageLocation("step")[k], newton_component + correction)
+            builder.append_store(StorageLocation("bend")[k], correction)
+        builder.append_instruction(Return())
         outs = (make_output_argument("step"), make_output_argument("bend"), make_output_argument("row", Number.INTEGER))
         return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
@@ -185,16 +185,16 @@ class DrivenLoopKernels:
         builder.begin_section("rates")
         rates = self.square.solve(builder, solvers, [row.nu for row in rows], "rate")
         for k, value in zip(dependent, rates, strict=True):  # by the name under which all expressions know it
-            builder.append_line(Statement(k.rate.name, value))
+            builder.append_instruction(Statement(k.rate.name, value))
         for symbol in self._find_rate_symbols():
-            builder.append_line(Statement(symbol.name, self.symbols.definitions[symbol]))
+            builder.append_instruction(Statement(symbol.name, self.symbols.definitions[symbol]))
         builder.begin_section("second rates")
         second_rates = self.square.solve(builder, solvers, [row.gamma for row in rows], "second")
         builder.begin_section("results")
         for index, (coordinate, value) in enumerate(zip(dependent, second_rates, strict=True), self.first):
-            builder.append_store(Place("v")[index], coordinate.rate)
-            builder.append_store(Place("v")[index + len(dependent)], value)
-        builder.append_line(Return())
+            builder.append_store(StorageLocation("v")[index], coordinate.rate)
+            builder.append_store(StorageLocation("v")[index + len(dependent)], value)
+        builder.append_instruction(Return())
         return builder.build_kernel(
             (*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("v")), status=True, owner="", prune=True
         )
@@ -225,8 +225,8 @@ class DrivenLoopKernels:
         ]
         residual_rates = [tangents.compute_gradient(value).get(t, ZERO) for value in residuals]
         for index, value in enumerate(self.square.solve(builder, solvers, residual_rates, "third")):
-            builder.append_store(Place("out")[index], value)
-        builder.append_line(Return())
+            builder.append_store(StorageLocation("out")[index], value)
+        builder.append_instruction(Return())
         return builder.build_kernel(
             (*STATE, DISCRETE, PARAMETERS, make_output_argument("out")), status=True, owner="", prune=True
         )
@@ -261,7 +261,7 @@ class DrivenLoopKernels:
         builder.begin_section("corners")
         for branch in dict.fromkeys(branches):
             name = f"side_{branch.args[0]}"
-            builder.append_line(Statement(name, branch))
-            builder.append_line(MarkUnused(name))
+            builder.append_instruction(Statement(name, branch))
+            builder.append_instruction(MarkUnused(name))
         kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
         return replace(kernel, sections=(FROZEN_BRANCHES_SECTION, *kernel.sections))

@@ -27,7 +27,7 @@ from gudgeon.generator.ir.statements import Call, Jump, Return, SolveDependentRo
 from gudgeon.generator.ir.values import Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_SINGULAR, RUN_VANISHING, append_friction_mode
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 
 _DOC = (
     "Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from",
@@ -58,14 +58,14 @@ def make_dynamics_kernel(
     builder = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
     if kkt.rows and not model.has_intermittent_constraints:
         builder.begin_section("status")
-        builder.append_line(Status())
+        builder.append_instruction(Status())
     _append_event_functions(model, builder)
     loads = [load for element in model.elements.values() for load in element.list_point_loads()]
     for index, clearance in enumerate(model.clearances):
         loads += _append_clearance_call(builder, index, clearance)
     if model.clearances and not is_stabilized:
         builder.begin_section("if a is NULL, only the joints with play are evaluated")
-        builder.append_line(ReturnIfOnlyJoints())
+        builder.append_instruction(ReturnIfOnlyJoints())
     generalized_loads, prescribed_forces = system.compute_generalized_forces(loads)
     forces = [applied_force + load for applied_force, load in zip(system.applied, generalized_loads, strict=True)]
     stick_rhs = _append_slip_velocities(model, builder, kkt, forces)
@@ -81,7 +81,7 @@ def make_dynamics_kernel(
     x = kkt.solve(builder, factor, b)
     builder.begin_section("results")
     for k, _ in enumerate(system.q):
-        builder.append_store(Place("a")[k], x[k])
+        builder.append_store(StorageLocation("a")[k], x[k])
     for r, _ in enumerate(kkt.rows):
         builder.append_store(RHS["lambda"][r], x[kkt.n + r])
     _append_friction_forces(builder, kkt, x)
@@ -89,7 +89,7 @@ def make_dynamics_kernel(
     if kkt.rows and not model.has_intermittent_constraints:
         (append_fallback or _append_redundancy_handling)(builder, kkt, b)
     _append_powers(builder, kkt, prescribed_forces)
-    builder.append_line(Return(pivot=bool(kkt.rows and not model.has_intermittent_constraints)))
+    builder.append_instruction(Return(pivot=bool(kkt.rows and not model.has_intermittent_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
     kernel = builder.build_kernel(arguments, status=True, owner="")
     return declare_branches(kernel, "rhs")
@@ -144,7 +144,9 @@ def _append_clearance_call(builder: KernelBuilder, index: int, clearance: Cleara
         for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
     arguments = (clearance.first.omega, clearance.second.omega, *clearance.surface_arguments)
-    builder.append_line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *make_contact_arguments(index)), (out,)))
+    builder.append_instruction(
+        Call(f"clearance_{name}_", (*e, *edot, *arguments, *make_contact_arguments(index)), (out,))
+    )
     F = [builder.append_local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
     moments = [
         ZERO if point.body is None else builder.append_local(f"M_{name}_{body_role}", out[f"moment_{body_role}"])
@@ -220,7 +222,7 @@ def _append_friction_forces(builder: KernelBuilder, kkt: KKT, solution: dict[int
         stick = kkt.stick_symbols[kkt.first_friction + index]
         target = RHS["friction"][index]["force"]
         force = Statement(target, -solution[kkt.first_friction + index], f"stick of {friction.name}")
-        builder.append_line(When(Test(stick, "!=", (0.0,)), force))
+        builder.append_instruction(When(Test(stick, "!=", (0.0,)), force))
 
 
 def _append_rigid_contact_accelerations(
@@ -280,12 +282,12 @@ def _append_redundancy_handling(builder: KernelBuilder, kkt: KKT, right_sides: M
     """
     if not builder.has_jumps:
         return
-    builder.append_line(Jump())
+    builder.append_instruction(Jump())
     builder.begin_section("a pivot vanished: constraint equations depend on each other here")
     force, rhs = (
         tuple(right_sides.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows)))
     )
-    builder.append_line(SolveDependentRows(force, rhs))
+    builder.append_instruction(SolveDependentRows(force, rhs))
 
 
 def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
@@ -298,7 +300,9 @@ def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[
     multipliers = {r: PlaceSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
     drive_power = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     for prescribed in kkt.system.prescribed:
-        effort = sp.Add(*(m * PlaceSymbol(Place("a")[k]) for k, m in prescribed.mass.items())) - prescribed.applied
+        effort = (
+            sp.Add(*(m * PlaceSymbol(StorageLocation("a")[k]) for k, m in prescribed.mass.items())) - prescribed.applied
+        )
         for r, friction in enumerate(kkt.frictions):
             force = PlaceSymbol(RHS["friction"][r]["force"])
             effort -= model.symbols.differentiate_definitions(friction.slip.v, prescribed.rate) * force

@@ -21,9 +21,9 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
 from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
-from gudgeon.generator.ir.statements import DeclareBranches, Line, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, Instruction, Statement
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Select
 from gudgeon.generator.symbols.unevaluated import Unevaluated
 
@@ -70,7 +70,7 @@ def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Ke
         return None
     sections = []
     for section in sections_in:
-        lines: list[Line] = []
+        lines: list[Instruction] = []
         for statement in section.statements:
             if isinstance(statement, Statement):
                 lines += [
@@ -112,16 +112,16 @@ def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_ev
     `event_kernel`: the function of their values; `switch_indices`: the numbers of the switching functions. These are
     written to `out` first, in this order, then `n_events` user events.
     """
-    output_index: dict[Place, int] = {RHS["g"][k]: index for index, k in enumerate(switch_indices)}
+    output_index: dict[StorageLocation, int] = {RHS["g"][k]: index for index, k in enumerate(switch_indices)}
     output_index |= {
         RHS["event"][k]: index for k, index in enumerate(range(len(switch_indices), len(switch_indices) + n_events))
     }
     sections = []
     for section in event_kernel.sections:
-        lines: list[Line] = []
+        lines: list[Instruction] = []
         for statement in section.statements:
-            if isinstance(statement, Statement) and isinstance(statement.target, Place):
-                statement = replace(statement, target=Place("out")[output_index[statement.target]])
+            if isinstance(statement, Statement) and isinstance(statement.target, StorageLocation):
+                statement = replace(statement, target=StorageLocation("out")[output_index[statement.target]])
             lines.append(DeclareBranches("") if isinstance(statement, DeclareBranches) else statement)
         sections.append(Section(section.title, tuple(lines)))
     return replace(
@@ -145,7 +145,7 @@ def reads_coordinate_from_index(kernel: Kernel, first_index: int) -> bool:
         for statement in section.statements
         if isinstance(statement, Statement)
     ]
-    places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
+    places = [value for value in values if isinstance(value, StorageLocation) and value.base in ("q", "v")]
     return any(place.path >= (first_index,) for place in places)
 
 
@@ -159,7 +159,7 @@ def _make_output_statement(statement: Statement, switch_indices: Collection[int]
     if isinstance(value, BranchOf) and int(value.args[0]) in switch_indices:
         return Statement(RHS["g"][int(value.args[0])], value.args[1])
     target = statement.target
-    return statement if isinstance(target, Place) and target.path[:1] == ("event",) else None
+    return statement if isinstance(target, StorageLocation) and target.path[:1] == ("event",) else None
 
 
 _TIME_TERMS = "time_terms"
@@ -220,7 +220,7 @@ def _make_time_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: 
 
     `dynamics` supplies the other attributes of the kernel.
     """
-    stores = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
+    stores = [Statement(StorageLocation("out")[k], term) for k, term in enumerate(terms)]
     sections = (
         Section("parameters and time", tuple(collector.list_needed_definitions(terms))),
         Section("terms", tuple(stores)),
@@ -260,9 +260,9 @@ class _TermCollector:
             statement = statement if converted is statement.value else replace(statement, value=converted)
         value, local = statement.value, statement.declared_local
         if not isinstance(value, sp.Basic):
-            if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
+            if local and isinstance(value, StorageLocation) and value.base in (TIME.name, PARAMETERS.name):
                 self.known[local] = statement
-            if value == Place(TIME.name):
+            if value == StorageLocation(TIME.name):
                 self.time = local
             return
         names = {symbol.name for symbol in find_symbols(value)}

@@ -9,7 +9,7 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_lo
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, make_output_argument
 from gudgeon.generator.ir.statements import MaxMagnitude, Return
 from gudgeon.generator.solvers.square_rows import SquareSystem
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 
 def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kernel]:
@@ -45,10 +45,10 @@ def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
     rates = closures.solve(builder, solvers, [row.nu for row in system.rows], "rate")
     builder.begin_section("results")
     for k, (component, rate) in enumerate(zip(step, rates, strict=True)):
-        builder.append_store(Place("step")[k], component)
-        builder.append_store(Place("rates")[k], rate)
-    builder.append_line(MaxMagnitude("worst", tuple(phi)))
-    builder.append_line(Return())
+        builder.append_store(StorageLocation("step")[k], component)
+        builder.append_store(StorageLocation("rates")[k], rate)
+    builder.append_instruction(MaxMagnitude("worst", tuple(phi)))
+    builder.append_instruction(Return())
     outs = (make_output_argument(name) for name in ("step", "rates", "worst"))
     return builder.build_kernel((*STATE[:2], PARAMETERS, *outs), status=True)
 
@@ -72,21 +72,23 @@ def _make_body_motion_kernel(system: System, closures: SquareSystem) -> Kernel:
     builder.begin_section("positions and velocities of the bodies")
     for body in bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True), body.index):
-            builder.append_store(Place("all_q")[k], q)
-            builder.append_store(Place("all_v")[k], v)
+            builder.append_store(StorageLocation("all_q")[k], q)
+            builder.append_store(StorageLocation("all_v")[k], v)
     builder.begin_section("rates of the closures")
     named_rows = zip(closures.names, system.rows, strict=True)
     phi_dot = [builder.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
-    builder.append_line(MaxMagnitude("worst", tuple(phi_dot)))
+    builder.append_instruction(MaxMagnitude("worst", tuple(phi_dot)))
     solvers = closures.factorize(builder)
     builder.begin_section("accelerations")
     a = closures.solve(builder, solvers, [row.gamma for row in system.rows], "second")
     for k, value in enumerate(a):
-        builder.append_store(Place("a")[k], value)
+        builder.append_store(StorageLocation("a")[k], value)
     for body in bodies:
         motion = system.motions[body.name]
         for k, (row_entries, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
-            builder.append_store(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items())))
-    builder.append_line(Return())
+            builder.append_store(
+                StorageLocation("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items()))
+            )
+    builder.append_instruction(Return())
     outs = (make_output_argument(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
     return builder.build_kernel((*STATE, PARAMETERS, *outs), status=True)

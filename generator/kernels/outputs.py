@@ -11,7 +11,7 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, make_input_argument, make_output_argument
 from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import Joint
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 
 def make_outputs_kernel(model: Model) -> Kernel:
@@ -32,7 +32,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
     builder.begin_section("multipliers")
     for row_index, row in enumerate(model.rows):
         multiplier[row.name] = builder.append_local(
-            f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[row_index]
+            f"multiplier_{row.name.replace('.', '_')}", StorageLocation("lambda")[row_index]
         )
     builder.begin_section("reactions")
     rows_by_owner: dict[str, list[Row]] = {}
@@ -40,19 +40,19 @@ def make_outputs_kernel(model: Model) -> Kernel:
         rows_by_owner.setdefault(row.owner, []).append(row)
     for j, joint in enumerate(find_constraining_joints(model)):
         for k, value in enumerate(_compute_reaction(model, joint, rows_by_owner.get(joint.name, []), multiplier)):
-            target = Place("reactions")[N_REACTION_COLUMNS * j + k]
+            target = StorageLocation("reactions")[N_REACTION_COLUMNS * j + k]
             builder.append_store(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
-        builder.append_store(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
+        builder.append_store(StorageLocation("torques")[d], -multiplier.get(name, ZERO), f"{name}")
     for k, (name, (value, _)) in enumerate(list_force_element_series(model).items()):
-        builder.append_store(Place("series")[k], value, name)
+        builder.append_store(StorageLocation("series")[k], value, name)
     builder.begin_section("energy")
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
-    builder.append_store(Place("energy")[ENERGY_kinetic], kinetic)
+    builder.append_store(StorageLocation("energy")[ENERGY_kinetic], kinetic)
     gx, gy = model.gravity
     gravity_energies = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
     potentials = (element.loads.potential for element in model.elements.values())
-    builder.append_store(Place("energy")[ENERGY_potential], sp.Add(*gravity_energies, *potentials))
+    builder.append_store(StorageLocation("energy")[ENERGY_potential], sp.Add(*gravity_energies, *potentials))
     results = (make_output_argument(name) for name in ("reactions", "torques", "series", "energy"))
     return builder.build_kernel((*STATE, PARAMETERS, make_input_argument("lambda"), *results))
 

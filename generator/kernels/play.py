@@ -27,7 +27,7 @@ from gudgeon.generator.solvers.contact_derivatives import (
     read_parameters_from_struct,
     replace_speed_ratio,
 )
-from gudgeon.generator.symbols.storage import Place, Result
+from gudgeon.generator.symbols.storage import Result, StorageLocation
 
 
 def make_law_calls(
@@ -94,7 +94,7 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
         if name in results:
             builder.append_store(Result(f"{name}_out"), value)
         else:
-            builder.append_line(Statement(name, value))
+            builder.append_instruction(Statement(name, value))
     variables = (Argument(symbol.name) for symbol in equations.variables)
     result_arguments = (make_output_argument(f"{name}_out") for name in results)
     kernel = builder.build_kernel(
@@ -169,12 +169,16 @@ class JointFunctions:
         return self.clearance.normal.optional_variables if self.clearance.normal else ()
 
     @property
-    def normal_law_argument_places(self) -> tuple[Place, ...]:
+    def normal_law_argument_places(self) -> tuple[StorageLocation, ...]:
         """Return the storage locations from which the normal law's arguments other than δ and δ̇/δ̇⁻ are read.
 
         They are locals of the same names; for rigid surfaces the contact force in the contact state is the only one.
         """
-        return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.normal_law_extra_variables))
+        return (
+            (CONTACT["force"],)
+            if self.clearance.rigid
+            else tuple(map(StorageLocation, self.normal_law_extra_variables))
+        )
 
     @property
     def has_transition(self) -> bool:

@@ -14,7 +14,7 @@ from gudgeon.generator.ir.statements import MaxMagnitude, Return
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_VANISHING
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 MIN_MASS_FRACTION = 1e-4  # of the mass of all bodies: the least that a body counts in projections
 FILM_MASS_FACTOR = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
@@ -41,14 +41,14 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
     builder.begin_section("right-hand side")
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: builder.append_local(f"r_{row.name.replace('.', '_')}", Place("r")[row_index[row.name]])
+        kkt.n + k: builder.append_local(f"r_{row.name.replace('.', '_')}", StorageLocation("r")[row_index[row.name]])
         for k, row in enumerate(kkt.rows)
     }
     x = kkt.solve(builder, kkt.factorize(builder), r, "step_")
     builder.begin_section("results")
     for k, _ in enumerate(system.q):
-        builder.append_store(Place("x")[k], x[k])
-    builder.append_line(Return())
+        builder.append_store(StorageLocation("x")[k], x[k])
+    builder.append_instruction(Return())
     arguments = (*STATE[:2], make_input_argument("r"), PARAMETERS, make_output_argument("x"))
     return builder.build_kernel(arguments, status=True), kkt
 
@@ -139,10 +139,10 @@ def make_constraint_correction_kernel(system: System, name: str = "closing_step"
     x, velocity_step = kkt.solve(builder, factor, phi, "dq_"), kkt.solve(builder, factor, phi_dot, "dv_")
     builder.begin_section("results")
     for k, _ in enumerate(system.q):
-        builder.append_store(Place("dq")[k], x[k])
-        builder.append_store(Place("dv")[k], velocity_step[k])
-    builder.append_line(MaxMagnitude("worst", tuple(phi.values())))
-    builder.append_line(Return())
+        builder.append_store(StorageLocation("dq")[k], x[k])
+        builder.append_store(StorageLocation("dv")[k], velocity_step[k])
+    builder.append_instruction(MaxMagnitude("worst", tuple(phi.values())))
+    builder.append_instruction(Return())
     outs = (make_output_argument(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held
     kernel = builder.build_kernel((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", registered_only=True)

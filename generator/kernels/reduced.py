@@ -19,7 +19,7 @@ from gudgeon.generator.kernels.projection import make_projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import TreeEdge
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
@@ -72,9 +72,9 @@ def _append_absolute_fallback(builder: KernelBuilder, kkt: KKT, right_sides: Map
     """
     if not builder.has_jumps:
         return
-    builder.append_line(Jump())
+    builder.append_instruction(Jump())
     builder.begin_section("a pivot vanished: constraint equations depend on each other here")
-    builder.append_line(SolveDependentRows())
+    builder.append_instruction(SolveDependentRows())
 
 
 def _make_forward_kinematics_kernel(system: TreeSystem) -> Kernel:
@@ -92,8 +92,8 @@ def _make_forward_kinematics_kernel(system: TreeSystem) -> Kernel:
     builder.begin_section("bodies")
     for body in system.model.bodies:
         for index, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
-            builder.append_store(Place("all_q")[body.index + index], q)
-            builder.append_store(Place("all_v")[body.index + index], v)
+            builder.append_store(StorageLocation("all_q")[body.index + index], q)
+            builder.append_store(StorageLocation("all_v")[body.index + index], v)
     return builder.build_kernel((*STATE, PARAMETERS, make_output_argument("all_q"), make_output_argument("all_v")))
 
 
@@ -125,8 +125,8 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     )
     state.begin_section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
-        state.append_store(Place("s")[k], position, names[k])
-        state.append_store(Place("s_rate")[k], rate)
+        state.append_store(StorageLocation("s")[k], position, names[k])
+        state.append_store(StorageLocation("s_rate")[k], rate)
     accelerations = KernelBuilder(
         model.symbols,
         "reduce_accelerations",
@@ -138,11 +138,11 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
             break
         variables = find_differentiation_variables(position)
         terms = [
-            differentiate(position, q) * PlaceSymbol(Place("all_a")[index])
+            differentiate(position, q) * PlaceSymbol(StorageLocation("all_a")[index])
             for index, q in enumerate(model.q)
             if q in variables
         ]
-        accelerations.append_store(Place("a")[k], sp.Add(*terms, compute_rate(rate)), system.unknowns[k])
+        accelerations.append_store(StorageLocation("a")[k], sp.Add(*terms, compute_rate(rate)), system.unknowns[k])
     kernels = [state.build_kernel((*STATE, PARAMETERS, make_output_argument("s"), make_output_argument("s_rate")))]
     if has_singular_fallback(system):
         kernels.append(
@@ -194,7 +194,7 @@ def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
         builder = KernelBuilder(system.model.symbols, name, [doc])
         builder.begin_section("rows")
         for r, row in enumerate(system.rows):
-            builder.append_store(Place("out")[r], select_expression(row), row.name)
+            builder.append_store(StorageLocation("out")[r], select_expression(row), row.name)
         arguments: Sequence[Argument] = STATE if reads_velocity else STATE[:2]
         return builder.build_kernel((*arguments, PARAMETERS, make_output_argument("out")))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from gudgeon.contract import reduction_log as message
-from gudgeon.contract.reduction_log import Group, ReductionLog, Solve, Step, TreeBody
+from gudgeon.contract.reduction_log import Group, ReductionLog, ReductionStep, Solve, TreeBody
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.reduction.frames import CONSTANT, Affine
@@ -69,19 +69,19 @@ def _measure_factorization(kkt: KKT) -> Solve:
     )
 
 
-def _list_removal_steps(model: Model) -> Iterator[Step]:
+def _list_removal_steps(model: Model) -> Iterator[ReductionStep]:
     """Yield the steps from the closed linkage (all joints without play) to the equations of the scene.
 
     The first opens the joints with play, the second removes redundant equations; either may be empty.
     """
     dropped = model.redundancy.dropped
     open_rows = tuple(r.name for r in model.all_rows if r.owner in model.scene.play)
-    yield Step(message.PLAY, tuple(model.scene.play), rows_gone=open_rows)
+    yield ReductionStep(message.PLAY, tuple(model.scene.play), rows_gone=open_rows)
     owner = {row.name: row.owner for row in model.all_rows}
-    yield Step(message.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
+    yield ReductionStep(message.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
 
 
-def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
+def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[ReductionStep]:
     """Yield the steps from the absolute constraint equations to the loop closures of the tree.
 
     They eliminate angles, exchange pairs of bodies at shared points, and eliminate joints of the tree, slides that
@@ -92,7 +92,7 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     tree_edges = [tree_edge for tree_edge in system.tree.edges if tree_edge.joint]
     for step_kind in (message.HINGES, message.SLIDES):
         matching_edges = [tree_edge for tree_edge in tree_edges if tree_edge.slides == (step_kind == message.SLIDES)]
-        yield Step(
+        yield ReductionStep(
             step_kind,
             _list_joint_names(matching_edges),
             tuple(f"{tree_edge.body}.{axis}" for tree_edge in matching_edges for axis in "xy"),
@@ -101,13 +101,13 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
         )
     if system.slides:
         names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
-        yield Step(
+        yield ReductionStep(
             message.KNOWN, tuple(names) or tuple(system.slides), tuple(system.slides), rows_gone=system.slide_rows
         )
     if system.driven_loops:
         rows = tuple(row.name for row in system.driven_loops.rows)
         removed = tuple(name if "." in name else f"{name}.theta" for name in system.driven_loops.names)
-        yield Step(
+        yield ReductionStep(
             message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.driven_loops.rows)), removed, rows_gone=rows
         )
 
@@ -117,7 +117,7 @@ def _list_joint_names(tree_edges: Iterable[TreeEdge]) -> tuple[str, ...]:
     return tuple(tree_edge.joint.name for tree_edge in tree_edges if tree_edge.joint)
 
 
-def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
+def _make_angle_steps(model: Model, tree: Tree) -> Iterator[ReductionStep]:
     """Yield three steps, the elimination of prescribed, of constant and of dependent angles; each may be empty.
 
     Each equation used has eliminated one angle. Its name is in the field `rows_gone` of the step. A prescribed angle
@@ -139,7 +139,7 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
     for angle_kind in (message.PRESCRIBED, message.CONSTANT, message.DEPENDENT):
         rows = {row: body for row, body in tree.solved.items() if classify_angle(tree.angles[body]) == angle_kind}
         names = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
-        yield Step(
+        yield ReductionStep(
             angle_kind,
             tuple(names) or tuple(dict.fromkeys(owner[row] for row in rows)),
             tuple(f"{body}.theta" for body in rows.values()),
@@ -147,7 +147,7 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
         )
 
 
-def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
+def _make_shared_point_steps(tree: Tree) -> Iterator[ReductionStep]:
     """Yield for each shared point (multiple joint) the exchange of the file's pairs of bodies for those in use.
 
     A shared point is one at which three or more bodies meet. Pairs in use are those of tree and closures. Points whose
@@ -169,7 +169,7 @@ def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
             for row in shared_point.list_pair_rows(joint)
         )
         if removed_rows:
-            yield Step(
+            yield ReductionStep(
                 message.HUB,
                 tuple(joint.name for joint in shared_point.joints),
                 rows_gone=removed_rows,

@@ -16,9 +16,9 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, make_law_identifier
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.ir.values import Conditional
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
+from gudgeon.generator.symbols.storage import Key, PlaceSymbol, StorageLocation, find_value_key
 from gudgeon.generator.symbols.switches import BranchOf
 
 FIRST_SWITCH = Argument("corner", Number.INTEGER)
@@ -31,7 +31,7 @@ class SharedFunctionCall:
     """A joint's call of a shared function: the function, the parameters passed to it, its first switch."""
 
     kernel: Kernel
-    parameters: tuple[Place, ...]
+    parameters: tuple[StorageLocation, ...]
     first_switch: int | None  # None: it has no switches
 
 
@@ -46,7 +46,7 @@ class SharedFunctions:
     def add_call(
         self,
         kernel: Kernel,
-        parameter_names: Mapping[Place, str],
+        parameter_names: Mapping[StorageLocation, str],
         joint: str,
         meanings: Mapping[str, str] = NO_MEANINGS,
     ) -> SharedFunctionCall:
@@ -83,7 +83,7 @@ class SharedFunctions:
         return SharedFunctionCall(self._kernel_by_key[key], tuple(parameters), first_switch)
 
 
-def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str]:
+def name_joint_parameters(model: Model, clearance: Clearance) -> dict[StorageLocation, str]:
     """Return the names of a joint's parameters in its equations, by storage location, such as `p.pin_radius`: "R_i".
 
     First come the parameters of its laws, then dimensions, derived parameters, the transition, parameters of user
@@ -110,7 +110,7 @@ def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str
     for name, symbol in _list_file_parameters(model, laws):
         named_symbols.append((f"{name}_file_parameters" if name in used_names else name, symbol))
     place_of_symbol = {symbol: symbol_info.place for symbol, symbol_info in info.items() if symbol_info.place}
-    name_of_place: dict[Place, str] = {}
+    name_of_place: dict[StorageLocation, str] = {}
     for name, symbol in named_symbols:
         if symbol in place_of_symbol and name not in name_of_place.values():
             name_of_place.setdefault(place_of_symbol[symbol], name)
@@ -129,14 +129,16 @@ def _list_file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterato
             yield model.parameter_table.find_member_name(entry.symbol), entry.symbol
 
 
-def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
+def _name_parameters(
+    kernel: Kernel, parameter_names: Mapping[StorageLocation, str]
+) -> tuple[dict[Key, str], list[StorageLocation]]:
     """Return the names of the parameters that a kernel reads, and their storage locations in argument order.
 
-    Example: ({Place("p")["A_K"]: "K", "A_K_copy": "K"}, [Place("p")["A_K"]]). Names are by storage location and by
-    each local that is a copy of it. `parameter_names` has names by location, in argument order; other parameters
-    follow and keep the name of their field.
+    Example: ({StorageLocation("p")["A_K"]: "K", "A_K_copy": "K"}, [StorageLocation("p")["A_K"]]). Names are by storage
+    location and by each local that is a copy of it. `parameter_names` has names by location, in argument order; other
+    parameters follow and keep the name of their field.
     """
-    place_of_key: dict[Key, Place] = {
+    place_of_key: dict[Key, StorageLocation] = {
         line.declared_local: place for line in _iterate_lines(kernel) if (place := _find_copied_parameter(line))
     }
     for line in _iterate_lines(kernel):
@@ -151,14 +153,14 @@ def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tu
     return {symbol: name_of_place[field] for symbol, field in place_of_key.items()} | name_of_place, order
 
 
-def _iterate_lines(kernel: Kernel) -> Iterator[Line]:
+def _iterate_lines(kernel: Kernel) -> Iterator[Instruction]:
     """Yield the lines of all sections of a function."""
     return (line for section in kernel.sections for line in section.statements)
 
 
-def _find_copied_parameter(line: Line) -> Place | None:
+def _find_copied_parameter(line: Instruction) -> StorageLocation | None:
     """Return the storage location of the parameter that a statement copies to a local; None for any other line."""
-    place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
+    place = line.value if isinstance(line, Statement) and isinstance(line.value, StorageLocation) else None
     return place if place and place.is_parameter else None
 
 
@@ -223,5 +225,11 @@ def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
     for line in _iterate_lines(kernel):
         value = line.value if isinstance(line, Statement) else None
         target: Key = line.target if isinstance(line, Statement) else type(line).__name__
-        kind = value.test.relation if isinstance(value, Conditional) else value if isinstance(value, Place) else ""
+        kind = (
+            value.test.relation
+            if isinstance(value, Conditional)
+            else value
+            if isinstance(value, StorageLocation)
+            else ""
+        )
         yield kernel.names.get(target, target), kind, tuple(map(rename_symbols, line.expressions))

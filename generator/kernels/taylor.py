@@ -21,7 +21,7 @@ from gudgeon.generator.kernels.reduced import DYNAMICS, has_singular_fallback
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import FACTORS, KKT
 from gudgeon.generator.solvers.pivots import SINGULAR, VANISHING, ZERO, Factor
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 
 if TYPE_CHECKING:
     from gudgeon.generator.kernels.program import Program
@@ -214,14 +214,14 @@ def _ignore_vanishing_pivot(builder: KernelBuilder, kkt: KKT, right_sides: Mappi
     """
 
 
-def _find_result_place(target: Place) -> Place | None:
+def _find_result_place(target: StorageLocation) -> StorageLocation | None:
     """Return where the functions of the series store a result: "a" unchanged, powers of `rhs` in "power".
 
     Return None for results that a series does not need. `target`: the storage location in the right-hand side.
     """
     match target:
-        case Place("a"):
+        case StorageLocation("a"):
             return target
-        case Place(RHS.name, ("power", int() as k)):
-            return Place("power")[k]
+        case StorageLocation(RHS.name, ("power", int() as k)):
+            return StorageLocation("power")[k]
     return None

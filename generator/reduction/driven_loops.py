@@ -24,7 +24,7 @@ from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.system import DependentCoordinate, Motion, PrescribedCoordinate, System
 from gudgeon.generator.reduction.frames import Frame
 from gudgeon.generator.solvers.sparsity import Block, find_triangular_blocks, match_rows
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
@@ -77,7 +77,7 @@ def add_directions(
         ):
             first_index = len(system.q) + len(driven_loops.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
-                symbols.info[symbol] = replace(symbols.info[symbol], place=Place("q")[first_index + k])
+                symbols.info[symbol] = replace(symbols.info[symbol], place=StorageLocation("q")[first_index + k])
             angle_coefficients = {index_of[name]: c for name, c in frame.angle_coefficients.items() if name in index_of}
             directions.append(Direction(frame.cos, frame.sin, angle_coefficients))
     return replace(driven_loops, directions=tuple(directions))
@@ -242,18 +242,20 @@ def _set_storage_locations(
     symbols = system.model.symbols
     info = symbols.info
 
-    def set_location(symbol: sp.Symbol, place: Place) -> None:
+    def set_location(symbol: sp.Symbol, place: StorageLocation) -> None:
         """Set the storage location from which C reads a symbol."""
         info[symbol] = replace(info[symbol], place=place)
 
     for i, k in enumerate((*free_indices, *dependent_indices)):
-        set_location(system.q[k], Place("q")[i])
-        set_location(system.v[k], Place("v")[i])
+        set_location(system.q[k], StorageLocation("q")[i])
+        set_location(system.v[k], StorageLocation("v")[i])
     dependent = []
     for i, c in enumerate(dependent_indices, len(system.q)):
         name = system.q[c].name
-        second_derivative = symbols.add_symbol(f"{name}_second", Place("v")[i], names[c])
-        third_derivative = symbols.add_symbol(f"{name}_third", Place("v")[i + len(dependent_indices)], names[c])
+        second_derivative = symbols.add_symbol(f"{name}_second", StorageLocation("v")[i], names[c])
+        third_derivative = symbols.add_symbol(
+            f"{name}_third", StorageLocation("v")[i + len(dependent_indices)], names[c]
+        )
         dependent.append(DependentCoordinate(system.q[c], system.v[c], second_derivative, third_derivative))
     return tuple(dependent)
 

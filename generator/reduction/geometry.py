@@ -20,7 +20,7 @@ from gudgeon.generator.mechanism import GROUND, PointRef
 from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Frame, Motions, Pair
 from gudgeon.generator.reduction.tree import Tree, TreeEdge
 from gudgeon.generator.symbols.parameter_table import ParameterTable
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.symbols.symbol_sums import is_signed_symbol
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -127,7 +127,7 @@ class TreeGeometry(Geometry):
         """
         new, owner = self.symbols.add_symbol, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
-        q, v = (new(n, Place(array)[index], name) for n, array in zip(names, "qv", strict=True))
+        q, v = (new(n, StorageLocation(array)[index], name) for n, array in zip(names, "qv", strict=True))
         self.motions.coordinates[name] = Coordinate(name, q, v)
         return 1
 

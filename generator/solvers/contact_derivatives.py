@@ -22,7 +22,7 @@ from gudgeon.generator.ir.reciprocals import hoist_reciprocals
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, ZERO, Argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Conditional, Test
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
 CONTOUR_INPUTS = (
@@ -92,7 +92,7 @@ class _DerivativeBuilder:
         """Append an equation symbol = value of contact_steps.py, and its derivatives by the inputs."""
         value = read_parameters_from_struct(self.model, step.value)
         value_on_branch = self.tangents.store_powers(self.tangents.freeze_branches(value))
-        self.builder.append_line(Statement(step.symbol.name, value_on_branch))
+        self.builder.append_instruction(Statement(step.symbol.name, value_on_branch))
         self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
 
     def append_law(self, equations: LawEquations, arguments: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
@@ -108,7 +108,9 @@ class _DerivativeBuilder:
                 sp.Symbol(name, real=True),
                 hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),
             )
-            self.builder.append_line(Statement(name, law_tangents.store_powers(law_tangents.freeze_branches(value))))
+            self.builder.append_instruction(
+                Statement(name, law_tangents.store_powers(law_tangents.freeze_branches(value)))
+            )
             law_tangents.store_tangent(symbol, law_tangents.compute_gradient(value, symbol))
             if name in equations.results:
                 results[name] = symbol
@@ -123,10 +125,10 @@ class _DerivativeBuilder:
         """
         self.begin_section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
-            self.builder.append_store(Place("out")["value"][row], value)
+            self.builder.append_store(StorageLocation("out")["value"][row], value)
             slopes: Tangent = self.tangents.compute_gradient(value)
             for column, base in enumerate(self.inputs):
-                self.builder.append_store(Place("out")["slope"][row][column], slopes.get(base, ZERO))
+                self.builder.append_store(StorageLocation("out")["slope"][row][column], slopes.get(base, ZERO))
         return self.builder.build_kernel(_make_derivative_arguments(self.clearance), inline=True, prune=True)
 
 
@@ -168,14 +170,16 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
         else [contact.make_penetration_equation(clearance)]
     ):
         derivative_builder.append_assignment(step)
-    builder.append_line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
+    builder.append_instruction(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
     depth_slope = builder.append_local("depth_by_e", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))
     tangents.store_tangent(
         contact.depth,
         {base: derivative * depth_slope for base, derivative in tangents.get_tangent(contact.delta).items()},
     )
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
-    builder.append_line(Statement(ratio.name, Conditional(_IS_CLOSED, contact.deltadot / _STORED_SPEED, sp.Integer(1))))
+    builder.append_instruction(
+        Statement(ratio.name, Conditional(_IS_CLOSED, contact.deltadot / _STORED_SPEED, sp.Integer(1)))
+    )
     ratio_slope = builder.append_local("ratio_by_deltadot", Conditional(_IS_CLOSED, 1 / _STORED_SPEED, ZERO))
     tangents.store_tangent(
         ratio, {base: ratio_slope * rate for base, rate in tangents.get_tangent(contact.deltadot).items()}
@@ -237,7 +241,7 @@ def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kerne
     tangents = Tangents(model.symbols, builder, (contact.delta,), clearance.name)
     builder.begin_section("share")
     if clearance.mixed is not None:
-        builder.append_line(DEPTH_STATEMENT)
+        builder.append_instruction(DEPTH_STATEMENT)
         tangents.store_tangent(
             contact.depth,
             {contact.delta: builder.append_local("depth_by_delta", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))},
@@ -245,10 +249,10 @@ def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kerne
     *abbreviations, fraction = contact.make_blend_equations(clearance, is_closed=True)
     for step in abbreviations:
         value = read_parameters_from_struct(model, step.value)
-        builder.append_line(Statement(step.symbol.name, tangents.freeze_branches(value)))
+        builder.append_instruction(Statement(step.symbol.name, tangents.freeze_branches(value)))
         tangents.store_tangent(step.symbol, tangents.compute_gradient(value, step.symbol))
     value = read_parameters_from_struct(model, fraction.value)
-    builder.append_store(Place("out")[0], tangents.freeze_branches(value))
-    builder.append_store(Place("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
+    builder.append_store(StorageLocation("out")[0], tangents.freeze_branches(value))
+    builder.append_store(StorageLocation("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
     arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, make_output_argument("out"))
     return builder.build_kernel(arguments, inline=True)

@@ -265,8 +265,10 @@ class KKT:
         if is_row_pair:
             is_early = any(i < self.n for i in self.elimination.structure[second])
             threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]
-            builder.append_line(make_pivot_guard(*on_failure, 1, pivot_values[0], threshold, size[0]))
-            builder.append_line(make_pivot_guard(*on_failure, 2, determinant, threshold, size[1], pivot_values[0]))
+            builder.append_instruction(make_pivot_guard(*on_failure, 1, pivot_values[0], threshold, size[0]))
+            builder.append_instruction(
+                make_pivot_guard(*on_failure, 2, determinant, threshold, size[1], pivot_values[0])
+            )
             self._append_joint_pivot_tests(
                 builder, block, scale, (pivot_values[0], determinant), (*on_failure, thresholds[1])
             )
@@ -327,8 +329,8 @@ class KKT:
             return
         size = builder.append_local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
         jumps, n_before, threshold = on_failure
-        builder.append_line(make_pivot_guard(jumps, n_before, 1, pivots[0], threshold, size))
-        builder.append_line(make_pivot_guard(jumps, n_before, 2, pivots[1], threshold, size, pivots[0]))
+        builder.append_instruction(make_pivot_guard(jumps, n_before, 1, pivots[0], threshold, size))
+        builder.append_instruction(make_pivot_guard(jumps, n_before, 2, pivots[1], threshold, size, pivots[0]))
 
     def _invert_coordinate_pivot(
         self,
@@ -372,7 +374,7 @@ class KKT:
         """
         if k in self.inertias_of_angles:
             status = len(self.rows) + len(self.frictions) + 1 + list(self.inertias_of_angles).index(k)
-            builder.append_line(
+            builder.append_instruction(
                 Guard(Test(pivot, ">", (LIGHT_PIVOT, self.inertias_of_angles[k], *earlier_pivots)), status, True)
             )
 
@@ -409,11 +411,11 @@ class KKT:
             on_failure,
         )
         if k < self.first_friction:
-            builder.append_line(Guard(test, status, jump_on_failure))
+            builder.append_instruction(Guard(test, status, jump_on_failure))
             return -builder.append_local(f"inverse_pivot_{name}", 1 / pivot)
         stick = self.stick_symbols[k]  # a row that slips is switched off: its multiplier is zero
         is_sticking = Test(stick, "!=", (0.0,))
-        builder.append_line(Guard(test, status, jump_on_failure, is_sticking))
+        builder.append_instruction(Guard(test, status, jump_on_failure, is_sticking))
         return -builder.append_local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
 
     def solve(

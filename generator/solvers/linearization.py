@@ -27,7 +27,7 @@ from gudgeon.generator.ir.signatures import DISCRETE, RHS, Number, make_contact_
 from gudgeon.generator.ir.statements import Call, Declare
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.pivots import append_friction_mode
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
@@ -84,7 +84,7 @@ class Linearization:
             ):
                 self.tangents.store_tangent(symbol, {self.t: rate})
         self.jacobians = JacobianEntries()
-        self.a = [self._make_constant_symbol(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
+        self.a = [self._make_constant_symbol(f"a_{q.name}", StorageLocation("a")[k]) for k, q in enumerate(system.q)]
         self.multiplier = [
             self._make_constant_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
         ]
@@ -117,7 +117,7 @@ class Linearization:
         self._add_powers()
         return self.jacobians
 
-    def _make_constant_symbol(self, base_name: str, place: Place) -> sp.Symbol:
+    def _make_constant_symbol(self, base_name: str, place: StorageLocation) -> sp.Symbol:
         """Return a new symbol that is read at the storage location `place` and held constant in derivatives."""
         return self.symbols.add_symbol(base_name.replace(".", "_"), place)
 
@@ -140,12 +140,12 @@ class Linearization:
         inputs = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
         inputs += clearance.surface_arguments
         slopes = self.symbols.make_unique_name(f"change_{name}")
-        builder.append_line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
-        builder.append_line(
+        builder.append_instruction(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
+        builder.append_instruction(
             Call(
                 f"tangent_{name}_",
                 (*eccentricity, *eccentricity_rate, *inputs[4:], *make_contact_arguments(index)),
-                (Place(slopes),),
+                (StorageLocation(slopes),),
             )
         )
         states = (
@@ -161,13 +161,13 @@ class Linearization:
             *(state.name for state in states),
         )
         values = []
-        results: dict[str, Place] = {
+        results: dict[str, StorageLocation] = {
             result_name: out[result_name] for result_name in ("Fx", "Fy", "moment_first", "moment_second")
         }
         results |= {f"state_rate_{k}": out["state_rate"][k] for k in range(len(states))}
         for i, (result_name, place) in enumerate(results.items()):
             symbol = self._make_constant_symbol(f"{name}_{result_name}", place)
-            places = {k: Place(slopes)[i][j] for j, k in enumerate(derivative_names) if input_tangents[j]}
+            places = {k: StorageLocation(slopes)[i][j] for j, k in enumerate(derivative_names) if input_tangents[j]}
             derivatives = [
                 builder.append_local(f"{symbol.name}_by_{k}", derivative_place)
                 for k, derivative_place in places.items()

@@ -44,7 +44,7 @@ from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.solvers.linearization import JacobianEntries, Linearization, Pair
 from gudgeon.generator.solvers.pivots import SINGULAR, is_number_or_signed_symbol
 from gudgeon.generator.solvers.sparsity import choose_elimination
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 from gudgeon.generator.symbols.symbol_sums import subtract_products
 
@@ -103,7 +103,7 @@ class Newton:
             self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
         ]
         self.tables = self._make_entry_tables(builder)
-        builder.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
+        builder.append_store(self.linearization_argument[PARAMETERS.name], StorageLocation(PARAMETERS.name))
         arguments = (
             *STATE,
             DISCRETE,
@@ -227,9 +227,11 @@ class Newton:
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         builder.begin_section("eta/kappa")
         if ETA_ROW in factors:
-            builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
+            builder.append_instruction(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in factors:
-            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_baumgarte_gain(self.model))))
+            builder.append_instruction(
+                Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_baumgarte_gain(self.model)))
+            )
 
     def _make_factor_kernel(self) -> Kernel:
         """Return the kernel `newton_factor`, which factorizes Newton's matrix at η as L U, L with unit diagonal.
@@ -263,7 +265,7 @@ class Newton:
         for k in self.elimination.order:
             factors.eliminate_node(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
-        builder.append_line(Return())
+        builder.append_instruction(Return())
         return self._finish_function(builder, (Argument("eta"), self._make_output_linearization()), status=True)
 
     def _make_output_linearization(self) -> Argument:
@@ -297,14 +299,14 @@ class Newton:
         for k in order:
             i = self.equation.get(k, k)
             factors = ((self.lower[i, j], x[j]) for j in earlier_columns[i])
-            value = subtract_products(PlaceSymbol(Place("x")[i]), factors)
+            value = subtract_products(PlaceSymbol(StorageLocation("x")[i]), factors)
             x[k] = builder.append_local(f"b_{self.names[k]}", value)
         builder.begin_section("backward")
         for k in reversed(order):
             factors = ((self.upper[k, j], x[j]) for j in self.elimination.structure[k])
             value = subtract_products(x[k], factors)
             x[k] = builder.append_local(f"x_{self.names[k]}", value * self.inverse[k])
-            builder.append_store(Place("x")[k], x[k])
+            builder.append_store(StorageLocation("x")[k], x[k])
         return self._finish_function(builder, (self.linearization_argument, make_output_argument("x")))
 
     def _make_solve_kernel(self) -> Kernel:
@@ -324,9 +326,9 @@ class Newton:
         )
         self._append_eta_factors(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
         builder.begin_section("right-hand side")
-        builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
+        builder.append_instruction(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
-        r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
+        r_q, r_v = ([PlaceSymbol(StorageLocation("r")[first + k]) for k in range(n)] for first in (0, n))
         coordinates = sorted({k for node, k in jacobians.phi_q if node < n + self.m})
         shifted = {
             k: builder.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k])
@@ -342,26 +344,23 @@ class Newton:
         for i, value in jacobians.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
-            b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
+            b[i].append(PlaceSymbol(StorageLocation("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
-            builder.append_store(Place("x")[i], self._find_eta_factor(i) * sp.Add(*terms))
-        builder.append_line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
+            builder.append_store(StorageLocation("x")[i], self._find_eta_factor(i) * sp.Add(*terms))
+        builder.append_instruction(
+            Call("newton_substitute", (StorageLocation(LINEARIZATION),), (StorageLocation("x"),))
+        )
         builder.begin_section("solution")
         for k in range(n):
-            builder.append_store(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
-            builder.append_store(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
+            builder.append_store(StorageLocation("u")[k], ETA * (r_q[k] + PlaceSymbol(StorageLocation("x")[k])))
+            builder.append_store(StorageLocation("u")[n + k], PlaceSymbol(StorageLocation("x")[k]))
         for i in range(self.first_state, self.nodes):
-            builder.append_store(Place("u")[self._find_state_index(i)], PlaceSymbol(Place("x")[i]))
+            builder.append_store(StorageLocation("u")[self._find_state_index(i)], PlaceSymbol(StorageLocation("x")[i]))
         for w in range(N_WORK):
-            builder.append_store(Place("u")[2 * n + w], self._compute_work_change(w))
-        arguments = (
-            self.linearization_argument,
-            Argument("eta"),
-            Argument("s"),
-            make_input_argument("r"),
-            make_output_argument("u"),
-        )
-        return self._finish_function(builder, arguments)
+            builder.append_store(StorageLocation("u")[2 * n + w], self._compute_work_change(w))
+        scalars = (Argument("eta"), Argument("s"))
+        vectors = (make_input_argument("r"), make_output_argument("u"))
+        return self._finish_function(builder, (self.linearization_argument, *scalars, *vectors))
 
     def _find_state_index(self, state: int) -> int:
         """Return the index in y = (q, v, works, internal states) of the internal state whose node is `state`."""
@@ -374,13 +373,13 @@ class Newton:
         substitution: u_v by coordinate, followed by η μ by equation.
         """
         jacobians, n = self.jacobians, self.n
-        terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]
+        terms = [PlaceSymbol(StorageLocation("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]
         for part, first in ((jacobians.power_q, 0), (jacobians.power_v, n), (jacobians.power_z, 2 * n + N_WORK)):
-            terms += [value * PlaceSymbol(Place("u")[first + k]) for (i, k), value in part.items() if i == w]
+            terms += [value * PlaceSymbol(StorageLocation("u")[first + k]) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
         for (i, node), value in jacobians.power_row.items():
-            start_rate = ETA * PlaceSymbol(Place("r")[n + node]) if node < n else ZERO
-            changes += [value * (PlaceSymbol(Place("x")[node]) - start_rate)] if i == w else []
+            start_rate = ETA * PlaceSymbol(StorageLocation("r")[n + node]) if node < n else ZERO
+            changes += [value * (PlaceSymbol(StorageLocation("x")[node]) - start_rate)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 
@@ -473,7 +472,7 @@ class Factors:
         size = entry if k < newton.n or k >= states else scale
         stick = newton.stick_flags[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
         is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
-        builder.append_line(
+        builder.append_instruction(
             Guard(
                 Test(pivot, ">", (SINGULAR, ComparedMagnitude(size)), compares_magnitude=True),
                 k + 1,

@@ -22,7 +22,7 @@ from gudgeon.generator.ir.statements import Call, Declare, Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
 from gudgeon.generator.solvers.sparsity import Block, find_triangular_blocks
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 ZERO = sp.Integer(0)
@@ -89,7 +89,7 @@ class SquareSystem:
         if pivot.is_Number:
             return Solver(block, 1 / pivot)
         pivot_local = builder.append_local(f"pivot_{self.names[row]}", pivot)
-        builder.append_line(
+        builder.append_instruction(
             Guard(
                 Test(
                     pivot_local,
@@ -112,7 +112,7 @@ class SquareSystem:
         determinant = builder.append_local(f"determinant_{name}", a * d - b * c)
         (A, B), (C, D) = ([self._compute_entry_bound(builder, r, k, block) for k in block.columns] for r in block.rows)
         bound = builder.append_local(f"bound_{name}", A * D + B * C)
-        builder.append_line(
+        builder.append_instruction(
             Guard(Test(determinant, ">", (SINGULAR_SQUARE, bound), compares_magnitude=True), block.rows[1] + 1)
         )
         return Solver(block, builder.append_local(f"inverse_{name}", 1 / determinant))
@@ -142,12 +142,12 @@ class SquareSystem:
         """
         n, name = len(block.rows), self._symbols.make_unique_name(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
-        builder.append_line(Declare(Number.REAL, values, (n * n,)))
-        builder.append_line(Declare(Number.INTEGER, order, (n,)))
+        builder.append_instruction(Declare(Number.REAL, values, (n * n,)))
+        builder.append_instruction(Declare(Number.INTEGER, order, (n,)))
         for k, value in enumerate(value for row in self._extract_block(block) for value in row):
-            builder.append_store(Place(values)[k], value)
-        factorization = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
-        builder.append_line(Guard(factorization, block.rows[0] + 1))
+            builder.append_store(StorageLocation(values)[k], value)
+        factorization = Call("factor_block", (sp.Integer(n),), (StorageLocation(values), StorageLocation(order)))
+        builder.append_instruction(Guard(factorization, block.rows[0] + 1))
         return Solver(block, name=name)
 
     def _extract_block(self, block: Block) -> list[list[sp.Expr]]:
@@ -181,7 +181,7 @@ class SquareSystem:
 
     def _solve_block(
         self, builder: KernelBuilder, solver: Solver, rhs: Sequence[sp.Expr], prefix: str
-    ) -> Sequence[sp.Expr | Place]:
+    ) -> Sequence[sp.Expr | StorageLocation]:
         """Return the unknowns of one block for its right-hand side `rhs`, one value for each of its equations.
 
         Blocks of one and two equations are solved by expressions. A larger one appends a call of the engine; the
@@ -193,9 +193,9 @@ class SquareSystem:
             (a, b), (c, d) = self._extract_block(solver.block)
             return [(d * rhs[0] - b * rhs[1]) * solver.inverse, (a * rhs[1] - c * rhs[0]) * solver.inverse]
         name, n = self._symbols.make_unique_name(f"{solver.name}_{prefix}"), len(rhs)
-        builder.append_line(Declare(Number.REAL, name, (n,)))
+        builder.append_instruction(Declare(Number.REAL, name, (n,)))
         for k, value in enumerate(rhs):
-            builder.append_store(Place(name)[k], value)
-        arguments = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
-        builder.append_line(Call("solve_block", arguments, (Place(name),)))
-        return [Place(name)[k] for k in range(n)]
+            builder.append_store(StorageLocation(name)[k], value)
+        arguments = (sp.Integer(n), StorageLocation(f"{solver.name}_values"), StorageLocation(f"{solver.name}_order"))
+        builder.append_instruction(Call("solve_block", arguments, (StorageLocation(name),)))
+        return [StorageLocation(name)[k] for k in range(n)]

@@ -14,7 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.mechanism import Quantity, Scene
 from gudgeon.generator.symbols.from_expressions import convert_to_sympy
-from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, StorageLocation
 from gudgeon.generator.symbols.symbols import PARAMETER_MEMBER, Symbols
 from gudgeon.language.tree import Expr, evaluate, iterate_names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
@@ -109,7 +109,7 @@ class ParameterTable(Freezable):
         return self.entries[f"parameters.{name}"].symbol
 
     def _add_parameter(
-        self, address: str, base_name: str, quantity: Quantity, place: Place = PARAMETER_MEMBER
+        self, address: str, base_name: str, quantity: Quantity, place: StorageLocation = PARAMETER_MEMBER
     ) -> sp.Symbol:
         """Add the parameter of a quantity at an address, after those in its expression; return its symbol.
 
@@ -163,7 +163,7 @@ class ParameterTable(Freezable):
         if not name:
             name = self.symbols.make_unique_name(base_name)
             self.tables[name] = [
-                self._add_parameter(quantity.address, f"{name}_{k}", quantity, Place(PARAMETERS)[name][k])
+                self._add_parameter(quantity.address, f"{name}_{k}", quantity, StorageLocation(PARAMETERS)[name][k])
                 for k, quantity in enumerate(quantities)
             ]
         for symbol in self.tables[name]:
@@ -253,7 +253,7 @@ class ParameterTable(Freezable):
         """Return the name of a parameter's field in Parameters."""
         return self.find_storage_location(symbol).member
 
-    def find_storage_location(self, symbol: sp.Symbol) -> Place:
+    def find_storage_location(self, symbol: sp.Symbol) -> StorageLocation:
         """Return the storage location of a parameter in the struct Parameters; the symbol must be a parameter."""
         place = self.symbols.info[symbol].place
         assert place is not None

@@ -18,20 +18,20 @@ PARAMETERS = "p"  # the argument that holds the parameters of a run
 
 
 @dataclass(frozen=True)
-class Place:
-    """A storage location: an argument or local, or a part of it, such as `Place("rhs")["clearance"][0]["Fx"]`.
+class StorageLocation:
+    """A storage location: an argument or local, or a part of it.
 
-    `path` has one step for each field name or element number. As a string, by which terms are ordered, the location is
-    `rhs.clearance[0].Fx`.
+    Example: `StorageLocation("rhs")["clearance"][0]["Fx"]`. `path` has one step for each field name or element number.
+    As a string, by which terms are ordered, the location is `rhs.clearance[0].Fx`.
     """
 
     base: str
     path: tuple[str | int, ...] = ()
     expressions: ClassVar[tuple[sp.Basic, ...]] = ()
 
-    def __getitem__(self, step: str | int) -> Place:
+    def __getitem__(self, step: str | int) -> StorageLocation:
         """Return the storage location of a field (text) or element (number) within this one."""
-        return Place(self.base, (*self.path, step))
+        return StorageLocation(self.base, (*self.path, step))
 
     def __str__(self) -> str:
         """Return the place as text, such as "rhs.clearance[0].Fx"."""
@@ -56,7 +56,7 @@ class Place:
         return str(self).partition(".")[2]
 
 
-class Result(Place):
+class Result(StorageLocation):
     """The value that a function returns through the argument of this name."""
 
 
@@ -69,10 +69,10 @@ def make_real_symbol(name: str) -> sp.Symbol:
 class PlaceSymbol(sp.Symbol):
     """A symbol that is read from a storage location; SymPy orders it like a plain symbol of that name."""
 
-    place: Place
+    place: StorageLocation
     __slots__ = ("place",)
 
-    def __new__(cls, place: Place) -> PlaceSymbol:
+    def __new__(cls, place: StorageLocation) -> PlaceSymbol:
         """Return the real symbol whose value is read from a storage location; its name is the text of the location."""
         symbol: PlaceSymbol = sp.Symbol.__xnew__(cls, str(place), real=True)
         symbol.place = place
@@ -88,7 +88,7 @@ class PlaceSymbol(sp.Symbol):
         return sp.Symbol.class_key()
 
 
-Key: TypeAlias = str | Place  # identifies a value: the name of a local or definition, or its storage location
+Key: TypeAlias = str | StorageLocation  # identifies a value: the name of a local or definition, or its storage location
 
 
 def find_value_key(symbol: sp.Symbol) -> Key:

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
-from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol, make_real_symbol
+from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, PlaceSymbol, StorageLocation, make_real_symbol
 from gudgeon.generator.symbols.switches import Switches
 
-PARAMETER_MEMBER = Place(PARAMETERS)[""]  # stands for the field of a parameter that is called as the symbol
+PARAMETER_MEMBER = StorageLocation(PARAMETERS)[""]  # stands for the field of a parameter that is called as the symbol
 
 
 def make_identifier(base_name: str) -> str:
@@ -44,7 +44,7 @@ class SymbolInfo:
     `place` is None for a symbol that is a local of each kernel, computed from its definition.
     """
 
-    place: Place | None
+    place: StorageLocation | None
     meaning: str
     unit: str
 
@@ -146,15 +146,20 @@ class Symbols(Freezable):
 
     def _is_parameter_member(self, name: str) -> bool:
         """Return whether a parameter's field in the struct Parameters has this name."""
-        return self._find_place(name) == Place(PARAMETERS)[name]
+        return self._find_place(name) == StorageLocation(PARAMETERS)[name]
 
-    def _find_place(self, name: str) -> Place | None:
+    def _find_place(self, name: str) -> StorageLocation | None:
         """Return the storage location of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(make_real_symbol(name))
         return info.place if info else None
 
     def add_symbol(
-        self, base_name: str, place: Place | None = None, meaning: str = "", unit: str = "", member_base_name: str = ""
+        self,
+        base_name: str,
+        place: StorageLocation | None = None,
+        meaning: str = "",
+        unit: str = "",
+        member_base_name: str = "",
     ) -> sp.Symbol:
         """Return a new real symbol, with an unused name made from `base_name`, and record its place, meaning and unit.
 
@@ -167,7 +172,7 @@ class Symbols(Freezable):
             for text in (base_name, member_base_name)
         )
         symbol = make_real_symbol(name)
-        place = Place(PARAMETERS)[field_name or name] if place == PARAMETER_MEMBER else place
+        place = StorageLocation(PARAMETERS)[field_name or name] if place == PARAMETER_MEMBER else place
         self.info[symbol] = SymbolInfo(place, meaning, unit)
         if shared_table is not None:
             shared_table.info[symbol] = self.info[symbol]
@@ -189,7 +194,7 @@ class Symbols(Freezable):
         self,
         base_name: str,
         expression: sp.Expr,
-        place: Place | None = None,
+        place: StorageLocation | None = None,
         meaning: str = "",
         unit: str = "",
         member_base_name: str = "",

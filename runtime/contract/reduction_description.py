@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from gudgeon.contract import reduction_log
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.contract.reduction_log import ReductionLog, Solve, Step
+from gudgeon.contract.reduction_log import ReductionLog, ReductionStep, Solve
 
 MAX_NAMES = 16  # largest number of names that are listed in full
 
@@ -70,75 +70,75 @@ def _list_bodies(names: Iterable[str]) -> str:
     return abbreviate_names(tuple(dict.fromkeys(name.rpartition(".")[0] for name in names)))
 
 
-def _describe_joints_with_play(step: Step) -> str:
+def _describe_joints_with_play(step: ReductionStep) -> str:
     """Describe the step that opens joints with play."""
     verb = "has" if len(step.owners) == 1 else "have"
     return f"{abbreviate_names(step.owners)} {verb} play: a force law, no rows, and no joint of the tree"
 
 
-def _describe_redundant_equations(step: Step) -> str:
+def _describe_redundant_equations(step: ReductionStep) -> str:
     """Describe the step that leaves out redundant equations."""
     return f"{abbreviate_names(step.rows_gone)} {'is' if len(step.rows_gone) == 1 else 'are'} redundant: left out"
 
 
-def _format_removed_coordinates(step: Step, coordinate_kind: str) -> str:
+def _format_removed_coordinates(step: ReductionStep, coordinate_kind: str) -> str:
     """Return a phrase for the coordinates that a step removes; `coordinate_kind` is their kind, "angle" or "slide"."""
     return f"the {coordinate_kind}{_get_plural_ending(step.gone)} of {_list_bodies(step.gone)}"
 
 
-def _describe_dependent_coordinates(step: Step, coordinate_kind: str) -> str:
+def _describe_dependent_coordinates(step: ReductionStep, coordinate_kind: str) -> str:
     """Describe a step in which coordinates of one kind, "angle" or "slide", follow from those of its owners."""
     subject = _format_removed_coordinates(step, coordinate_kind)
     return f"{subject} follow{_get_verb_ending(step.gone)} {abbreviate_names(step.owners)}"
 
 
-def _describe_prescribed_angles(step: Step) -> str:
+def _describe_prescribed_angles(step: ReductionStep) -> str:
     """Describe the step in which drives prescribe angles."""
     subject = f"{abbreviate_names(step.owners)} prescribe{_get_verb_ending(step.owners)}"
     return f"{subject} {_format_removed_coordinates(step, 'angle')}: known at any time, not integrated"
 
 
-def _describe_constant_angles(step: Step) -> str:
+def _describe_constant_angles(step: ReductionStep) -> str:
     """Describe the step in which joints keep angles constant."""
     subject = f"{abbreviate_names(step.owners)} keep{_get_verb_ending(step.owners)}"
     return f"{subject} {_format_removed_coordinates(step, 'angle')} constant"
 
 
-def _describe_dependent_angles(step: Step) -> str:
+def _describe_dependent_angles(step: ReductionStep) -> str:
     """Describe the step in which angles follow other angles."""
     return _describe_dependent_coordinates(step, "angle")
 
 
-def _describe_shared_point(step: Step) -> str:
+def _describe_shared_point(step: ReductionStep) -> str:
     """Describe the step that replaces equations of a multiple joint: several joints at one point."""
     added_bodies, removed_bodies = _list_bodies(step.rows_come), _list_bodies(step.rows_gone)
     verb = f"replace{_get_verb_ending(step.rows_come[::2])}"
     return f"{abbreviate_names(step.owners)} are a multiple joint: {added_bodies} {verb} {removed_bodies}"
 
 
-def _describe_hinges(step: Step) -> str:
+def _describe_hinges(step: ReductionStep) -> str:
     """Describe the step in which hinges of the tree determine positions of bodies."""
     return f"{abbreviate_names(step.owners)}: each determines x and y of a body from angles"
 
 
-def _describe_slides(step: Step) -> str:
+def _describe_slides(step: ReductionStep) -> str:
     """Describe the step in which slides replace x and y of bodies."""
     return f"{abbreviate_names(step.owners)}: each replaces x and y of a body by one slide along its axis"
 
 
-def _describe_known_slides(step: Step) -> str:
+def _describe_known_slides(step: ReductionStep) -> str:
     """Describe the step in which slides become known."""
     return _describe_dependent_coordinates(step, "slide")
 
 
-def _describe_driven_loops(step: Step) -> str:
+def _describe_driven_loops(step: ReductionStep) -> str:
     """Describe the step that evaluates loops determined by drives."""
     clause = f"{abbreviate_names(step.owners)} close{_get_verb_ending(step.owners)} loops that drives determine"
     return f"{clause}: coordinates of {_list_bodies(step.gone)} are evaluated, not integrated"
 
 
 # descriptions by kind of step
-_DESCRIPTIONS: Mapping[str, Callable[[Step], str]] = {
+_DESCRIPTIONS: Mapping[str, Callable[[ReductionStep], str]] = {
     reduction_log.PLAY: _describe_joints_with_play,
     reduction_log.REDUNDANT: _describe_redundant_equations,
     reduction_log.PRESCRIBED: _describe_prescribed_angles,

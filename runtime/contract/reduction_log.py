@@ -25,7 +25,7 @@ CHAIN = "chain"  # joints whose loops determine driven coordinates
 
 
 @dataclass(frozen=True)
-class Step:
+class ReductionStep:
     """Describe a reduction step: coordinates ("L1.x", "guide.slide") and equations ("A.x") that are removed and
     added.
     """
@@ -80,14 +80,14 @@ class ReductionLog:
     coordinates: tuple[str, ...] = ()  # at the beginning
     rows: tuple[str, ...] = ()
     jacobian: int = 0  # nonzeros of the absolute Φ_q, without joints with play
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ReductionStep, ...] = ()
     tree: tuple[TreeBody, ...] = ()
     costs: tuple[int, ...] = ()
     before: Solve | None = None  # linear system in absolute coordinates
     after: Solve | None = None  # linear system of the reduced equations
     groups: tuple[Group, ...] = ()  # in the order in which they are solved; kinematic linkages only
 
-    def iterate_steps(self) -> Iterator[tuple[Step, int, int]]:
+    def iterate_steps(self) -> Iterator[tuple[ReductionStep, int, int]]:
         """Yield each reduction step with the numbers of coordinates and constraint equations that remain after it."""
         n, m = len(self.coordinates), len(self.rows)
         for step in self.steps:
@@ -101,7 +101,7 @@ class ReductionLog:
 
         Steps, bodies of the tree, groups and linear systems become their dataclasses, other lists become tuples.
         """
-        classes_of_lists = {"steps": Step, "tree": TreeBody, "groups": Group}
+        classes_of_lists = {"steps": ReductionStep, "tree": TreeBody, "groups": Group}
         classes_of_systems = {"before": Solve, "after": Solve}
         fields: dict[str, Any] = {}
         for name, value in data.items():

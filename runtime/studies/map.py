@@ -263,7 +263,7 @@ def compute_verdict_box(
             address: value for parameter_values in settings for address, value in parameter_values.items()
         }
 
-    def judge_one_point(point: Mapping[str, float], progress: ReportProgress) -> Cell:
+    def classify_one_point(point: Mapping[str, float], progress: ReportProgress) -> Cell:
         """Run and judge one point of the box in a worker thread, and return its cell."""
         return judge_point(simulation, build_point_parameters(point), t_long, setting, limits, CPU_LIMIT_S, progress)
 
@@ -272,7 +272,7 @@ def compute_verdict_box(
     for point in points:
         compute_parameter_values(simulation.compiled, build_point_parameters(point))
     with TaskPool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
-        cells_or_none = pool.map_in_threads(judge_one_point, points)
+        cells_or_none = pool.map_in_threads(classify_one_point, points)
     cells = tuple(
         cell or make_missing_cell(build_point_parameters(point), setting)
         for cell, point in zip(cells_or_none, points, strict=True)

@@ -18,8 +18,8 @@ from gudgeon.errors import BadValueError
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.series import derive_taylor_series
 from gudgeon.generator.ir.series_rules import NoTaylorSeries, StoreRow
-from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Key, Place, find_value_key
+from gudgeon.generator.ir.statements import Instruction, Statement
+from gudgeon.generator.symbols.storage import Key, StorageLocation, find_value_key
 from gudgeon.integrators import lanes
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
@@ -37,41 +37,41 @@ MOTION = ((0.3, 0.5, -0.2, 0.1), (0.7, -0.4, 0.3, 0.05))  # x and y as polynomia
 def coefficients(value: sp.Expr, orders: int) -> list[float]:
     """Of an expression of time, x and y along MOTION, by both functions of its series."""
     lines = (
-        Statement("time", Place("t")),
-        Statement("x", Place("q")[0]),
-        Statement("y", Place("q")[1]),
-        Statement("w", Place("p")["w"]),
+        Statement("time", StorageLocation("t")),
+        Statement("x", StorageLocation("q")[0]),
+        Statement("y", StorageLocation("q")[1]),
+        Statement("w", StorageLocation("p")["w"]),
         Statement("result", value),
-        Statement(Place("a")[0], sp.Symbol("result", real=True)),
+        Statement(StorageLocation("a")[0], sp.Symbol("result", real=True)),
     )
     made = derive_taylor_series(Kernel("f", (), (), (Section("", lines),)), lambda target: target, "f")
     rows = dict[tuple[str, int], list[float]]()
-    names: dict[Key, float] = {Place("p")["w"]: 0.6}
+    names: dict[Key, float] = {StorageLocation("p")["w"]: 0.6}
     found: list[float] = []
     for k in range(orders + 1):
-        kept = (name for name in names if k == 0 or (isinstance(name, Place) and name.base in ("p", "at")))
+        kept = (name for name in names if k == 0 or (isinstance(name, StorageLocation) and name.base in ("p", "at")))
         known = {name: names[name] for name in kept}
-        known |= {Place("q")[i]: float(c[k]) if k < len(c) else 0.0 for i, c in enumerate(MOTION)}
-        known |= {Place("t"): float(k == 1), "k": k, "share": 1 / max(k, 1), "next": 1 / (k + 1)}
+        known |= {StorageLocation("q")[i]: float(c[k]) if k < len(c) else 0.0 for i, c in enumerate(MOTION)}
+        known |= {StorageLocation("t"): float(k == 1), "k": k, "share": 1 / max(k, 1), "next": 1 / (k + 1)}
         for i, product in enumerate(made.products):
             left, right = (rows.get((side, i), []) for side in ("left", "right"))
-            known[Place("sum")[product.name]] = sum(left[j - 1] * right[k - j - 1] for j in range(1, k))
+            known[StorageLocation("sum")[product.name]] = sum(left[j - 1] * right[k - j - 1] for j in range(1, k))
         kernel = made.values if k == 0 else made.terms
         for line in (line for section in kernel.sections for line in section.statements):
             follow(line, known, rows)
-        found.append(known[Place("a")[0]] * (k + 1 if k else 1))
+        found.append(known[StorageLocation("a")[0]] * (k + 1 if k else 1))
         names = names | known
     return found
 
 
-def follow(line: Line, known: dict[Key, float], rows: dict[tuple[str, int], list[float]]) -> None:
+def follow(line: Instruction, known: dict[Key, float], rows: dict[tuple[str, int], list[float]]) -> None:
     """What a line does, with numbers by their names."""
     if isinstance(line, StoreRow):
         for i, value in enumerate(line.values):
             rows.setdefault((line.array, 8 * line.row + i), []).append(number(value, known))
     elif isinstance(line, Statement):
         value = line.value
-        known[line.target] = known[value] if isinstance(value, Place) else number(value, known)
+        known[line.target] = known[value] if isinstance(value, StorageLocation) else number(value, known)
 
 
 def number(value: object, known: dict[Key, float]) -> float:

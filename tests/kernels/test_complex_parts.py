@@ -16,7 +16,7 @@ from gudgeon.generator.ir.statements import Call, Guard, Statement
 from gudgeon.generator.ir.values import Conditional
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.symbols.storage import Key, Place, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, find_value_key
 from gudgeon.loading.shipped import find_shipped_file
 from tests.slow import slow_but
 
@@ -34,7 +34,7 @@ class Memory(defaultdict[Key, Any]):
 
 def value_of(value: Any, memory: Memory) -> complex:
     match value:
-        case Place():
+        case StorageLocation():
             return memory[value]
         case Conditional():
             assert value.test.relation == "!=" and value.test.bound == (0.0,)
@@ -64,7 +64,9 @@ def kernels_of(name: str, scene: str) -> tuple[Kernel, Kernel, Kernel]:
 @pytest.mark.parametrize("of", slow_but(SCENES[1:2], SCENES), ids="-".join)
 def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> None:
     plain = kernels_of(*of)
-    twins = tuple(convert_to_complex(kernel, ("eta", "r", "u", "x", Place("lin")["lu"]), ("s",)) for kernel in plain)
+    twins = tuple(
+        convert_to_complex(kernel, ("eta", "r", "u", "x", StorageLocation("lin")["lu"]), ("s",)) for kernel in plain
+    )
     one, two = Memory(eta=ETA, s=0.0), Memory(eta=ETA.real, eta_i=ETA.imag)
     read = {
         find_value_key(s)
@@ -73,17 +75,20 @@ def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> Non
         for e in x.expressions
         for s in e.free_symbols
     }
-    sizes = {int(key.path[0]) for key in read if isinstance(key, Place) and key.base == "r"}
+    sizes = {int(key.path[0]) for key in read if isinstance(key, StorageLocation) and key.base == "r"}
     for k in range(max(sizes) + 1):
         r = complex(random.Random(k).uniform(-1, 1), random.Random(-k - 1).uniform(-1, 1))
-        one[Place("r")[k]] = r
-        two[Place("r")[2 * k]], two[Place("r")[2 * k + 1]] = r.real, r.imag
+        one[StorageLocation("r")[k]] = r
+        two[StorageLocation("r")[2 * k]], two[StorageLocation("r")[2 * k + 1]] = r.real, r.imag
     for kernels, memory in ((plain, one), (twins, two)):
         by_name = {kernel.name: kernel for kernel in kernels}
         run(kernels[0], memory, by_name)
         run(kernels[2], memory, by_name)
-    found = {k: complex(two[Place("u")[2 * k]], two[Place("u")[2 * k + 1]]) for k in range(max(sizes) + 1)}
-    exact = {k: complex(one[Place("u")[k]]) for k in found}
+    found = {
+        k: complex(two[StorageLocation("u")[2 * k]], two[StorageLocation("u")[2 * k + 1]])
+        for k in range(max(sizes) + 1)
+    }
+    exact = {k: complex(one[StorageLocation("u")[k]]) for k in found}
     scale = max(map(abs, exact.values()))
     assert scale > 1e-3 and max(abs(u.imag) for u in exact.values()) > 1e-3 * scale
     assert max(abs(found[k] - exact[k]) for k in found) < 1e-10 * scale
@@ -92,7 +97,7 @@ def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> Non
 
 def test_a_pivot_is_judged_by_the_size_of_both_parts() -> None:
     """|Re| + |Im| is compared with the share of the same of what it is measured by, in one number."""
-    factor = convert_to_complex(kernels_of("nine_bar_press", "lubricated")[0], ("eta", Place("lin")["lu"]))
+    factor = convert_to_complex(kernels_of("nine_bar_press", "lubricated")[0], ("eta", StorageLocation("lin")["lu"]))
     lines = [line for section in factor.sections for line in section.statements]
     locals_ = {line.target for line in lines if isinstance(line, Statement) and line.declared_local}
     for guard in (line for line in lines if isinstance(line, Guard)):

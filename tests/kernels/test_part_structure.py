@@ -11,7 +11,7 @@ from gudgeon.generator.ir import part_structure
 from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.pipeline import generate_kernel_source
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol, make_real_symbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation, make_real_symbol
 from gudgeon.generator.targets.c import equal_parts
 from gudgeon.generator.targets.c.lanes_printer import LanesPrinter
 from gudgeon.generator.targets.c.printer import CPrinter
@@ -20,7 +20,12 @@ from tests.kernels.test_parts import shorten
 from tests.slow import slow_but
 
 NAMES = ("a", "b_", "b_2_", "c", "c10", "c9", "theta_1", "x", "z")
-PLACES = (Place("q")[3], Place("q")[12], Place("p")["mass"], Place("rhs")["clearance"][0]["Fx"])
+PLACES = (
+    StorageLocation("q")[3],
+    StorageLocation("q")[12],
+    StorageLocation("p")["mass"],
+    StorageLocation("rhs")["clearance"][0]["Fx"],
+)
 
 
 def make_expression(random: np.random.Generator, symbols: list[sp.Symbol], depth: int) -> sp.Expr:
@@ -46,7 +51,7 @@ def test_expressions_printed_by_structure_have_the_text_of_direct_printing(print
         symbols = [*map(make_real_symbol, NAMES), *map(PlaceSymbol, PLACES)]
         random.shuffle(symbols)
         expression = make_expression(random, symbols[:4], 3)
-        readable = Readable((), {"c10": "c_", "x": Place("p")["x"]})
+        readable = Readable((), {"c10": "c_", "x": StorageLocation("p")["x"]})
         assert printer(readable).print_by_structure(expression) == printer(readable)._print(expression)
         texts.add(str(expression))
     assert len(texts) > 200

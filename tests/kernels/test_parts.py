@@ -11,9 +11,9 @@ from gudgeon.generator.ir import split as parts
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.split import order_statements_near_readers
-from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
+from gudgeon.generator.ir.statements import Call, Declare, Instruction, Statement
 from gudgeon.generator.pipeline import generate_kernel_source
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import find_shipped_file
@@ -100,29 +100,31 @@ def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
 
 
 def test_a_short_kernel_is_its_only_part() -> None:
-    kernel = Kernel("f", (), (make_output_argument("x"),), (Section("", (Statement(Place("x")[0], sp.Float(1)),)),))
+    kernel = Kernel(
+        "f", (), (make_output_argument("x"),), (Section("", (Statement(StorageLocation("x")[0], sp.Float(1)),)),)
+    )
     assert parts.split_kernel(kernel) == (kernel,)
 
 
 def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     shorten(monkeypatch)
-    a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [PlaceSymbol(Place("b")[k]) for k in range(2)]
-    first = Statement("a0", Place("x")[0])
-    front: tuple[Line, ...] = (Declare(Number.INTEGER, "b", (2,)), Call("fill", (), (Place("b"),)))
+    a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [PlaceSymbol(StorageLocation("b")[k]) for k in range(2)]
+    first = Statement("a0", StorageLocation("x")[0])
+    front: tuple[Instruction, ...] = (Declare(Number.INTEGER, "b", (2,)), Call("fill", (), (StorageLocation("b"),)))
     plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
-    last = Statement(Place("y")[0], a[39] + a[3])
+    last = Statement(StorageLocation("y")[0], a[39] + a[3])
     kernel = Kernel(
         "f", (), (make_input_argument("x"), make_output_argument("y")), (Section("", (*front, *plain, last)),)
     )
     # every statement but the first reads b, which only the call knows: nothing may move
     assert parts.split_kernel(kernel) == (kernel,)
-    front = (Declare(Number.REAL, "c", (2,)), Call("fill", (), (Place("c"),)))
-    c = [PlaceSymbol(Place("c")[k]) for k in range(2)]
+    front = (Declare(Number.REAL, "c", (2,)), Call("fill", (), (StorageLocation("c"),)))
+    c = [PlaceSymbol(StorageLocation("c")[k]) for k in range(2)]
     free = [first, *(Statement(f"a{k}", a[k - 1] * (k + 1) + c[k % 2]) for k in range(1, 40))]
     *pieces, main = parts.split_kernel(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
     kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
-    assert [functions.LinePrinter(printer.CPrinter()).print_line(line).strip() for line in kept] == [
+    assert [functions.LinePrinter(printer.CPrinter()).print_instruction(line).strip() for line in kept] == [
         "double passed[3];",
         "double c[2];",
         "fill(c);",

@@ -14,12 +14,12 @@ import sympy as sp
 from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.program import Program, TreeFunctions
 from gudgeon.generator.kernels.reduction_log import build_reduction_log
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.symbols.storage import PARAMETERS, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, StorageLocation
 from gudgeon.generator.targets.c import functions, ranges_printer, readme, taylor
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.curves import NAME as CURVES
@@ -323,12 +323,12 @@ def print_start_parameter_comparison(kernels: Iterable[Kernel]) -> str:
     )
 
 
-def _list_parameters_read(line: Line) -> list[str]:
+def _list_parameters_read(line: Instruction) -> list[str]:
     """Return the members of Parameters that a line copies to locals.
 
     [] is returned for a line that reads none, [""] for a line that reads or passes the struct otherwise.
     """
-    if isinstance(line, Statement) and isinstance(line.value, Place) and line.value.is_parameter:
+    if isinstance(line, Statement) and isinstance(line.value, StorageLocation) and line.value.is_parameter:
         return [line.value.member]
     return [""] if PARAMETERS in line.reads else []
 

@@ -17,8 +17,8 @@ from gudgeon.generator.ir.part_structure import PartStructure, find_part_structu
 from gudgeon.generator.ir.readable import Readable, make_readable
 from gudgeon.generator.ir.repeats import MIN_REPETITIONS
 from gudgeon.generator.ir.signatures import Access, Number, make_input_argument
-from gudgeon.generator.ir.statements import AssignStatus, Call, Line, Statement
-from gudgeon.generator.symbols.storage import PARAMETERS, Place
+from gudgeon.generator.ir.statements import AssignStatus, Call, Instruction, Statement
+from gudgeon.generator.symbols.storage import PARAMETERS, StorageLocation
 from gudgeon.generator.targets.c.printer import WIDTH
 
 _TABLE_ROW = make_input_argument("table_row", Number.INTEGER)  # the argument with a part's row of the table
@@ -32,7 +32,7 @@ _NAME = re.compile(r"[A-Za-z_]\w*")
 _DECLARED = re.compile(r"\bdouble (\w+)\b")
 _CALL_WITH_ADDRESS = "evaluate_contour("  # the call that gets the address of a parameter; a table cannot replace that
 
-TextOfLine = tuple[str, Line | None]
+TextOfLine = tuple[str, Instruction | None]
 PrintedPart = tuple[Kernel, Readable, list[TextOfLine]]  # the first text is the head of the function
 PrintLines = Callable[[Kernel, Readable], Iterator[TextOfLine]]
 
@@ -147,7 +147,7 @@ def redirect_calls(kernel: Kernel, calls: Mapping[str, Call]) -> Kernel:
             return call
         return replace(new_call, inputs=(*new_call.inputs, *call.inputs), results=call.results)
 
-    def redirect_line(line: Line) -> Line:
+    def redirect_line(line: Instruction) -> Instruction:
         """Return a line with its call redirected: a call, or the assignment of its status; other lines unchanged."""
         if isinstance(line, Call):
             return redirect_call(line)
@@ -184,7 +184,7 @@ class _OperandTable:
 
     def make_call(self, function: str, row: int) -> Call:
         """Return the call of the merged function whose only argument is a row of the table; none without columns."""
-        return Call(function, (Place(self.name)[row * len(self.columns)],) if self.columns else (), ())
+        return Call(function, (StorageLocation(self.name)[row * len(self.columns)],) if self.columns else (), ())
 
     def print_definition(self) -> str:
         """Return the table as a static array of int in C, row by row, wrapped at WIDTH; "" without columns."""
@@ -243,7 +243,7 @@ def _move_copies_to_first_use(texts: Iterable[TextOfLine]) -> Iterator[TextOfLin
     """
     copies: dict[str, TextOfLine] = {}
     for text, line in texts:
-        if isinstance(line, Statement) and line.declared_local and isinstance(line.value, Place):
+        if isinstance(line, Statement) and line.declared_local and isinstance(line.value, StorageLocation):
             copies[_DECLARED.findall(text)[0]] = text, line
             continue
         if line is not None and copies:

@@ -20,8 +20,8 @@ from gudgeon.generator.ir.statements import (
     DeclareBranches,
     DeclareParameters,
     Guard,
+    Instruction,
     Jump,
-    Line,
     MarkUnused,
     MaxMagnitude,
     MaxMagnitudeRow,
@@ -36,7 +36,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place, find_value_key
+from gudgeon.generator.symbols.storage import StorageLocation, find_value_key
 from gudgeon.generator.targets.c.equal_parts import PrintedPart, merge_equal_parts, print_part, redirect_calls
 from gudgeon.generator.targets.c.long_sums import split_long_sums
 from gudgeon.generator.targets.c.printer import (
@@ -103,13 +103,13 @@ class LinePrinter(ValuePrinter):
         super().__init__(printer)
         self.number_type = number_type
 
-    def print_line(self, line: Line) -> str:
+    def print_instruction(self, line: Instruction) -> str:
         """Return a line of a kernel as indented C, broken into several lines if it is longer than WIDTH."""
         if isinstance(line, Statement):
             return self.print_statement(line)
-        return "\n".join(part for text in self._print_line(line) for part in break_code(f"    {text}"))
+        return "\n".join(part for text in self._print_instruction(line) for part in break_code(f"    {text}"))
 
-    def _print_line(self, line: Line) -> Sequence[str]:
+    def _print_instruction(self, line: Instruction) -> Sequence[str]:
         """Return one line of a kernel that is not an assignment as unindented lines of C.
 
         Each class of lines has its own form. A class with a fixed text is looked up in `_PLAIN`.
@@ -180,7 +180,8 @@ class LinePrinter(ValuePrinter):
         results.
         """
         arguments = [
-            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.inputs
+            self.print_argument(x) if isinstance(x, StorageLocation) else self._print_argument_value(x)
+            for x in call.inputs
         ]
         return f"{call.function}({', '.join([*arguments, *map(self.print_argument, call.results)])})"
 
@@ -188,7 +189,7 @@ class LinePrinter(ValuePrinter):
         """Return the value of an argument as C; an integer stays an integer, all others are printed as doubles."""
         return str(value) if isinstance(value, sp.Integer) else self.print_expression(value)
 
-    def print_argument(self, place: Place) -> str:
+    def print_argument(self, place: StorageLocation) -> str:
         """Return a place as an argument in C: a struct inside another struct by its address, all others by name."""
         text = self.printer.get_name(place)
         return f"&{text}" if place.path else text
@@ -303,14 +304,18 @@ def print_statements(statements: Sequence[Statement]) -> str:
     return "\n".join(text for text, _ in print_each_statement(statements))
 
 
-def print_each_statement(statements: Sequence[Statement]) -> list[tuple[str, Line]]:
+def print_each_statement(statements: Sequence[Statement]) -> list[tuple[str, Instruction]]:
     """Return (text in C, line of the kernel) of each statement for a template; [] without statements.
 
     Select expressions become if statements of their own before the statement that reads them.
     """
     readable_lines = make_readable_statements(statements)
     line_printer = LinePrinter(CPrinter(readable_lines))
-    return [(line_printer.print_line(line), line) for section in readable_lines.sections for line in section.statements]
+    return [
+        (line_printer.print_instruction(line), line)
+        for section in readable_lines.sections
+        for line in section.statements
+    ]
 
 
 def print_shared_call(call: SharedFunctionCall, arguments: Sequence[str], results: Sequence[str]) -> str:
@@ -373,7 +378,7 @@ def _find_names_used(kernel: Kernel) -> frozenset[str]:
     keys = names.union(map(find_value_key, symbols))
     called = (kernel.names.get(key, key) for key in keys)
     first_switch = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
-    return frozenset(names) | first_switch | {key.base if isinstance(key, Place) else key for key in called}
+    return frozenset(names) | first_switch | {key.base if isinstance(key, StorageLocation) else key for key in called}
 
 
 def print_comment(doc: Sequence[str]) -> str:
@@ -410,7 +415,7 @@ def print_function_lines(
     names_used: frozenset[str] = NO_NAMES,
     *,
     is_called_by_engine: bool = False,
-) -> Iterator[tuple[str, Line | None]]:
+) -> Iterator[tuple[str, Instruction | None]]:
     """Yield (text, line of the kernel or None) of a function in C, in order.
 
     None belongs to the head (comment and signature), to the casts of unused arguments, to titles of sections and to the
@@ -431,7 +436,7 @@ def print_function_lines(
         title = [f"    /* {sanitize_comment(section.title)} */"] * bool(section.title)
         if heading := [*([""] * bool(k)), *title]:
             yield "\n".join(heading), None
-        yield from ((line_printer.print_line(line), line) for line in section.statements)
+        yield from ((line_printer.print_instruction(line), line) for line in section.statements)
     if not readable_sections.sections:
         yield "    /* this scene has none */", None
     yield "}", None
@@ -449,7 +454,7 @@ def print_kernel_parts(kernel: Kernel) -> Iterator[PrintedPart]:
     yield print_part(redirect_calls(main, calls), _print_part_lines)
 
 
-def _print_part_lines(part: Kernel, readable_lines: Readable) -> Iterator[tuple[str, Line | None]]:
+def _print_part_lines(part: Kernel, readable_lines: Readable) -> Iterator[tuple[str, Instruction | None]]:
     """Yield (C text, line of the kernel or None) of a kernel as one function, not static if in CALLED_BY_ENGINE."""
     line_printer = LinePrinter(CPrinter(readable_lines))
     is_called_by_engine = part.name in CALLED_BY_ENGINE

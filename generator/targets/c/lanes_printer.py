@@ -23,8 +23,8 @@ from gudgeon.generator.ir.statements import (
     DeclareBranches,
     DeclareParameters,
     Guard,
+    Instruction,
     Jump,
-    Line,
     MaxMagnitude,
     Return,
     Sines,
@@ -34,7 +34,7 @@ from gudgeon.generator.ir.statements import (
 )
 from gudgeon.generator.ir.values import Conditional, Test, Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, make_curve_name
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import ValuePrinter
 
@@ -154,7 +154,7 @@ class LaneLinePrinter(functions.LinePrinter):
             return f"({left_side} > 0.0) & ({left_side} < INFINITY)"
         return left_side + value_printer.print_test(replace(test, compares_magnitude=False)).removeprefix(value)
 
-    def _print_line(self, line: Line) -> Sequence[str]:
+    def _print_instruction(self, line: Instruction) -> Sequence[str]:
         """Return one line of a kernel as lines of C for vectors.
 
         Branches become choices by masks. A lane whose pivot fails its test is marked in `needs_scalar` instead of
@@ -170,11 +170,12 @@ class LaneLinePrinter(functions.LinePrinter):
             case Call():
                 values = (*line.inputs, *line.results)
                 arguments = [
-                    self.print_argument(x) if isinstance(x, Place) else self.print_expression(x) for x in values
+                    self.print_argument(x) if isinstance(x, StorageLocation) else self.print_expression(x)
+                    for x in values
                 ]
                 return [f"{line.function}({', '.join(arguments)});"]
             case Declare(type=Number.REAL):
-                return super()._print_line(replace(line, type="Lanes"))
+                return super()._print_instruction(replace(line, type="Lanes"))
             case DeclareParameters():
                 return ["const LaneParameters *const p = lin->p;"]
             case DeclareBranches():
@@ -202,7 +203,7 @@ class LaneLinePrinter(functions.LinePrinter):
                     for i, x in enumerate(line.values)
                 ]
             case Sines():
-                return super()._print_line(line)
+                return super()._print_instruction(line)
         raise ValueError(f"a line of a kernel has no counterpart for vectors: {line}")
 
 
@@ -215,7 +216,9 @@ def print_statements(statements: Sequence[Statement]) -> str:
     """Return statements as lines of C for the body of a lane function in a template; "" without statements."""
     readable_lines = make_readable_statements(statements)
     return (
-        "\n".join(map(LaneLinePrinter(LanesPrinter(readable_lines)).print_line, readable_lines.sections[0].statements))
+        "\n".join(
+            map(LaneLinePrinter(LanesPrinter(readable_lines)).print_instruction, readable_lines.sections[0].statements)
+        )
         if readable_lines.sections
         else ""
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.symbols.storage import Key
 from gudgeon.generator.targets.c.functions import print_kernel_parts
 from gudgeon.generator.targets.c.printer import wrap_file
@@ -58,7 +58,7 @@ def locate_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Locate
         yield LocatedFunction(file, part.name, readable_part, first_line, line_number - 1, tuple(stores))
 
 
-def _find_stores(text: Sequence[str], line: Line | str | None, first_line: int) -> list[StoredLines]:
+def _find_stores(text: Sequence[str], line: Instruction | str | None, first_line: int) -> list[StoredLines]:
     """Return the variables to which a printed line stores, each with its lines in the file; [] without an assignment.
 
     A branch gives two entries, one for each of its two values.
@@ -79,7 +79,7 @@ def _find_stores(text: Sequence[str], line: Line | str | None, first_line: int) 
 
 
 def locate_stores(
-    function_text: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
+    function_text: str, stores: Iterable[tuple[str, Instruction | str]], files: Mapping[str, str]
 ) -> tuple[str, list[StoredLines]]:
     """Return (file, stores with their lines) of a function that a template printed; ("", []) if no file contains it.
 

@@ -13,7 +13,7 @@ from itertools import count
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.ir.values import ContinuedSum, Value
 from gudgeon.generator.symbols.derivatives import find_operation_classes
 from gudgeon.generator.symbols.storage import make_real_symbol
@@ -36,7 +36,7 @@ def split_long_sums(kernel: Kernel) -> Kernel:
     return replace(kernel, sections=sections)
 
 
-def _split_sum(line: Line, counter: Iterator[int]) -> Iterator[Line]:
+def _split_sum(line: Instruction, counter: Iterator[int]) -> Iterator[Instruction]:
     """Yield the statements of the partial sums of a line that assigns a long sum, or else the line itself.
 
     A long sum has more than _MAX_TERMS terms, and no functions but powers. Each statement adds at least

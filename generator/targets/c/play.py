@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.kernels.play import JointFunctions, describe_law
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
@@ -36,7 +36,7 @@ CLOSED = "branch ? contact->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
 
-Stores = list[tuple[str, Line | str]]  # (C text, line of the kernel or name of the local that the text sets)
+Stores = list[tuple[str, Instruction | str]]  # (C text, line of the kernel or name of the local that the text sets)
 
 
 @dataclass(frozen=True)

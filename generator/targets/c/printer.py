@@ -15,7 +15,7 @@ from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi
 from gudgeon.generator.ir.values import Conditional, ContinuedSum, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, find_value_key
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Result, StorageLocation, find_value_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
@@ -55,9 +55,13 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""
         c_name_or_place = self.readable.names.get(key, key)
-        return self.print_place(c_name_or_place) if isinstance(c_name_or_place, Place) else c_name_or_place
+        return (
+            self.print_storage_location(c_name_or_place)
+            if isinstance(c_name_or_place, StorageLocation)
+            else c_name_or_place
+        )
 
-    def print_place(self, place: Place) -> str:
+    def print_storage_location(self, place: StorageLocation) -> str:
         """Return a storage location as an lvalue in C: a result as `*name`, members by `->`, `.` or index."""
         if isinstance(place, Result):
             return f"*{place.base}"
@@ -231,7 +235,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print the depth of a contour or its derivative (symbols/curves.py)."""
-        table, angle = self.get_name(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
+        table, angle = self.get_name(StorageLocation(PARAMETERS)[expr.table]), self._print(expr.args[3])
         return f"evaluate_contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
@@ -300,7 +304,7 @@ class ValuePrinter:
     def print_expression(self, value: Value) -> str:
         """Return a value of a kernel as a C expression, by its class; other values are SymPy expressions."""
         match value:
-            case Place():
+            case StorageLocation():
                 return self.printer.get_name(value)
             case Conditional():
                 then, otherwise = self.print_expression(value.then), self.print_expression(value.otherwise)

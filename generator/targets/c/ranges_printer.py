@@ -14,7 +14,7 @@ from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import Number, Type
 from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, make_curve_name
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import StorageLocation
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.cached_printer import order_terms
 
@@ -26,9 +26,9 @@ _RANGES = {"q", "v", "t"}  # arguments that are ranges; all others are numbers
 class RangesPrinter(printer.CPrinter):
     """Print every operation as a call of interval arithmetic; expressions without symbols stay scalars."""
 
-    def print_place(self, place: Place) -> str:
+    def print_storage_location(self, place: StorageLocation) -> str:
         """Return a storage place as C; a parameter becomes an interval of one value."""
-        text = super().print_place(place)
+        text = super().print_storage_location(place)
         return f"make_interval({text})" if place.is_parameter else text
 
     def _print_range(self, expr: sp.Expr) -> str:

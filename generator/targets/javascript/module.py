@@ -172,5 +172,5 @@ def make_play_kernel(model: Model) -> Kernel:
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *angular_velocities)
         values += clearance.surface_arguments
         for name, value in zip(_name_motion_locals(model, i), values, strict=True):
-            builder.append_line(Statement(name, sp.sympify(value)))
+            builder.append_instruction(Statement(name, sp.sympify(value)))
     return builder.build_kernel((*STATE, PARAMETERS))

@@ -18,8 +18,8 @@ from gudgeon.generator.ir.statements import (
     Call,
     DeclareBranches,
     Guard,
+    Instruction,
     Jump,
-    Line,
     MaxMagnitudeRow,
     Return,
     Sines,
@@ -30,7 +30,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import Test
 from gudgeon.generator.kernels.shared import FIRST_SWITCH
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, make_curve_name
-from gudgeon.generator.symbols.storage import Place, Result
+from gudgeon.generator.symbols.storage import Result, StorageLocation
 from gudgeon.generator.targets.c.printer import CPrinter, ValuePrinter
 from gudgeon.language.functions import IN_SYMPY
 
@@ -65,7 +65,7 @@ const evaluate_contour = (depths, order, angle) => {
     return per_angle * (slope + s * (bend + s * jump * (4.5 + s * (5 * s - 10))));
 };
 """
-_BRANCH_PLACES = tuple(Place(argument.name) for argument in BRANCHES)
+_BRANCH_PLACES = tuple(StorageLocation(argument.name) for argument in BRANCHES)
 
 
 class JavaScriptPrinter(CPrinter):
@@ -82,7 +82,7 @@ class JavaScriptPrinter(CPrinter):
         """Return a printer for other names that adds to the same set."""
         return JavaScriptPrinter(readable_lines, self.members_read)
 
-    def print_place(self, place: Place) -> str:
+    def print_storage_location(self, place: StorageLocation) -> str:
         """Return the path of a storage location in JavaScript; the member of a parameter is added to `members_read`."""
         if place.is_parameter:
             self.members_read.add(place.member)
@@ -155,7 +155,7 @@ def _print_outputs_literal(kernel: Kernel) -> str:
     lengths = dict[str, int]()
     for place in places:
         match place:
-            case Place(RHS.name, (str() as array, int() as k, *member)):
+            case StorageLocation(RHS.name, (str() as array, int() as k, *member)):
                 structs = 1 + k if member or array == "clearance" else 0
                 lengths[array] = max(structs, lengths.get(array, 0))
     members = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in lengths.items())
@@ -185,9 +185,9 @@ class LinePrinter:
         """Return in JavaScript the lines of the function that store to one of `local_names`; all lines for None."""
         all_lines = (line for section in self.readable_lines.sections for line in section.statements)
         selected = (line for line in all_lines if local_names is None or getattr(line, "target", "") in local_names)
-        return [text for line in selected for text in self.print_line(line)]
+        return [text for line in selected for text in self.print_instruction(line)]
 
-    def print_line(self, line: Line) -> list[str]:
+    def print_instruction(self, line: Instruction) -> list[str]:
         """Return one line of a kernel in JavaScript; [] for lines for vanished pivots and branches.
 
         A new local is declared and added to `locals`. A guard leaves the block `solved` if its test fails. The call of
@@ -221,9 +221,9 @@ class LinePrinter:
             f"{declaration}{target} = {self.value_printer.print_expression(line.branch)} < 0 ? {below} : {otherwise};"
         ]
 
-    def _print_argument(self, value: sp.Basic | Place) -> str:
+    def _print_argument(self, value: sp.Basic | StorageLocation) -> str:
         """Return an argument of a call in JavaScript."""
-        return str(value) if isinstance(value, Place) else self.value_printer.print_expression(value)
+        return str(value) if isinstance(value, StorageLocation) else self.value_printer.print_expression(value)
 
     def _print_sines(self, sines: Sines) -> list[str]:
         """Return the declarations of two arrays, the sines and the cosines of several angles.

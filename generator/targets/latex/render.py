@@ -195,7 +195,7 @@ def _get_template_environment() -> jinja2.Environment:
         tex_row=_print_tex_row,
         tex_size=_select_tex_size,
         html=html.escape,
-        html_line=to_html.print_line,
+        html_line=to_html.print_instruction,
         formula=to_html.print_formula,
         attributes=to_html.print_attributes,
         output=to_html.print_value_element,

@@ -38,7 +38,7 @@ def print_value_element(value_name: str) -> str:
     return f'<output data-value="{html.escape(value_name)}"></output>' if value_name else ""
 
 
-def print_line(text: Text) -> str:
+def print_instruction(text: Text) -> str:
     """Return words and formulas as HTML."""
     return "".join(print_formula(part) if isinstance(part, Formula) else html.escape(part) for part in text)
 

@@ -22,7 +22,7 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.driven_loops import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism import iterate_quantities
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, StorageLocation
 from gudgeon.generator.symbols.symbols import make_identifier
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.emit import describe_program, emit_scene, list_file_names, render_template
@@ -334,12 +334,12 @@ class _TokenCollector:
 def _split_element(target: Key) -> tuple[str, int]:
     """Return (array, index) of an element of an array or of an array in `rhs`; (text of the target, −1) for others."""
     match target:
-        case Place(array, (int() as index,)) | Place(RHS.name, (str() as array, int() as index)):
+        case StorageLocation(array, (int() as index,)) | StorageLocation(RHS.name, (str() as array, int() as index)):
             return array, index
     return str(target), -1
 
 
-def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, Place]) -> str:
+def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, StorageLocation]) -> str:
     """Return the name of the parameter that a line of `prepare` stores; "" if it stores none."""
     return next((name for name, place in places.items() if line.target in (name, place)), "")
 

@@ -22,8 +22,8 @@ from gudgeon.generator.ir.statements import (
     Call,
     DeclareBranches,
     Guard,
+    Instruction,
     Jump,
-    Line,
     MaxMagnitude,
     Return,
     SolveDependentRows,
@@ -34,13 +34,13 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import Conditional, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import Key, Place, Result, find_value_key
+from gudgeon.generator.symbols.storage import Key, Result, StorageLocation, find_value_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 # Lines for vanished pivots, frozen branches and calls that need the joints' forces only.
 _OMITTED_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, DeclareBranches)
-_BRANCH_PLACES = tuple(Place(argument.name) for argument in BRANCHES)
+_BRANCH_PLACES = tuple(StorageLocation(argument.name) for argument in BRANCHES)
 _BRANCH_ARGUMENTS = ("branch", "g", "corner")
 
 
@@ -49,7 +49,7 @@ def print_name(key: Key) -> str:
 
     A name that is a Python keyword gets an underscore: the field `lambda` becomes `rhs.lambda_[3]`.
     """
-    if isinstance(key, Place):
+    if isinstance(key, StorageLocation):
         members = (f"[{step}]" if isinstance(step, int) else f".{print_name(step)}" for step in key.path)
         return print_name(key.base) + "".join(members)
     return f"{key}_" if keyword.iskeyword(key) else key
@@ -211,14 +211,16 @@ class LinePrinter:
     def __init__(self, readable_lines: Readable) -> None:
         self.printer = NumPyPrinter(readable_lines)
 
-    def print_lines(self, lines: Iterable[Line]) -> list[str]:
+    def print_lines(self, lines: Iterable[Instruction]) -> list[str]:
         """Return lines of a kernel as lines of Python without indent, wrapped; _OMITTED_LINES are left out."""
-        return [text for item in lines if not isinstance(item, _OMITTED_LINES) for text in self._print_line(item)]
+        return [
+            text for item in lines if not isinstance(item, _OMITTED_LINES) for text in self._print_instruction(item)
+        ]
 
     def print_expression(self, value: Value) -> str:
         """Return a value of a kernel as a Python expression, by its class; other values are SymPy expressions."""
         match value:
-            case Place():
+            case StorageLocation():
                 return self.printer.get_name(value)
             case Conditional():
                 then, otherwise = self.print_expression(value.then), self.print_expression(value.otherwise)
@@ -252,7 +254,7 @@ class LinePrinter:
             return value.name
         return repr(value) if isinstance(value, float) else self.print_expression(value)
 
-    def _print_line(self, line: Line) -> list[str]:
+    def _print_instruction(self, line: Instruction) -> list[str]:
         """Return one line of a kernel as lines of Python, wrapped.
 
         A branch becomes np.where. A guard returns the number of its pivot if the test fails; the end of the function
@@ -269,7 +271,7 @@ class LinePrinter:
             case When():
                 return [
                     *break_code(f"if {self.print_test(line.test)}:"),
-                    *indent_lines(self._print_line(line.statement)),
+                    *indent_lines(self._print_instruction(line.statement)),
                 ]
             case Call():
                 arguments = [self.print_expression(x) for x in (*line.inputs, *line.results) if x not in _BRANCH_PLACES]

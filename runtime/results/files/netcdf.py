@@ -228,9 +228,7 @@ def save(run: Result, path: str | os.PathLike[str], user_attributes: Mapping[str
 
 
 def _check_attributes(user_attributes: Any, root: Table) -> dict[str, str]:
-    """Return the user's attributes. Raises BadValueError for values that are not texts, and for names that are reserved
-    or of `root`, empty, too long or unprintable.
-    """
+    """Return the user's attributes; raise BadValueError for a value that is not a text, and for an invalid name."""
     checked = {}
     for name, value in check_mapping(user_attributes, "attributes", "{name: text}").items():
         if not 0 < len(name) <= MAX_ATTRIBUTE_NAME or not name.isprintable() or name in root.attributes:
@@ -388,11 +386,9 @@ def read_events(file: File, source: KernelSource) -> Array:
 
 
 def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
-    """Return impacts or events as an array of `dtype`; empty without a group.
+    """Return impacts or events as an array of `dtype`; empty without a group. Raises ValueError for unknown names.
 
-    `kind`: "impact" or "event". `names`: the joints or events of the scene, whose indices are the first field of
-    `dtype`. Files of the old format (`is_old`) store these indices, others store names. Raises ValueError for unknown
-    ones.
+    The first field is the index in `names`, stored as such in files of the old format (`is_old`), in others by name.
     """
     owner_column, *other_columns = dtype.names or ()
     if not file.has_entry(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
