@@ -157,7 +157,8 @@ static void store_last_sample(const Batch *batch, long i, int status, Integrator
 /*
  * End run i: write its report, audit, peaks and progress, its last state, and its status into the batch; its phase
  * becomes OVER. If a sample is not finite, later samples are removed and the status is NOT_FINITE. If the run ended
- * early without an error (ENDED, STALLED, STOPPED), its last state becomes a sample.
+ * early without an error, its last state becomes a sample: for ENDED and STALLED always, for STOPPED only if the run
+ * has a sample.
  */
 static void end_run(const Batch *batch, long i, int status, Integrator *run)
 {

@@ -122,7 +122,7 @@ static void extend_stage_range(LaneStep *step, const Lanes *y)
 
 /*
  * Leave the steps whose error norm is not finite to the scalar code: add their lanes to the mask needs_scalar. Return
- * 0, as the other lanes continue.
+ * 0, no rejection, as the other lanes continue; the scalar function of this name (methods/step.c) rejects the step.
  */
 static int reject_nonfinite_error(LaneIntegrator *run, Lanes error)
 {
@@ -244,8 +244,8 @@ static void compute_film_errors(const LaneIntegrator *run, int method, LaneStep 
 #endif
 
 /*
- * Try a step of length h (s) by `method` (a METHOD_ constant) in all lanes. Return 0 or a status. In the library of
- * Taylor series, lane_series.c defines this function.
+ * Try a step of length h (s) by `method` (a METHOD_ constant) in all lanes. Return 0 or a status, which the caller
+ * ignores: lanes that fail are marked in masks. In the library of Taylor series, lane_series.c defines this function.
  */
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {

@@ -32,10 +32,10 @@ class ReductionStep:
 
     kind: str
     owners: tuple[str, ...]
-    gone: tuple[str, ...] = ()
-    come: tuple[str, ...] = ()
-    rows_gone: tuple[str, ...] = ()
-    rows_come: tuple[str, ...] = ()
+    gone: tuple[str, ...] = ()  # removed coordinates
+    come: tuple[str, ...] = ()  # added coordinates
+    rows_gone: tuple[str, ...] = ()  # removed constraint equations
+    rows_come: tuple[str, ...] = ()  # added constraint equations
 
 
 @dataclass(frozen=True)

@@ -232,7 +232,9 @@ def _print_bounds_file(program: Program, bounds: Kernel | None) -> str:
 
     Either kernel may be missing (None); its text is then left out.
     """
-    return "\n".join(ranges_printer.print_kernel(kernel) for kernel in (program.time_terms.kernel, bounds) if kernel)
+    return "\n".join(
+        ranges_printer.print_interval_kernel(kernel) for kernel in (program.time_terms.kernel, bounds) if kernel
+    )
 
 
 def render_template(name: str, /, **values: Any) -> str:

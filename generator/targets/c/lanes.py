@@ -45,7 +45,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
         return {MAIN: _print_kinematic_file(program, render, parameters)}
     assert program.methods
     joint_functions = [
-        *map(lanes_printer.print_kernel, program.laws),
+        *map(lanes_printer.print_lanes_kernel, program.laws),
         *(_print_joint_in_lanes(joint, render, model.law_states) for joint in program.joints),
     ]
     kernels = (*program.tree.unvectorized_kernels, program.methods.unvectorized_correction_kernel)
@@ -138,7 +138,7 @@ def _print_linearized_equations(
         if joints
         else []
     )
-    slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
+    slopes += map(lanes_printer.print_lanes_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         slopes.append(
             _print_force_derivatives_in_lanes(
@@ -149,13 +149,13 @@ def _print_linearized_equations(
     factor, solve_kernels = methods.complex_kernels[:1], methods.complex_kernels[1:]
     complex_step_texts = [
         *map(lanes_printer.print_kernel_with_fallback, factor),
-        *map(lanes_printer.print_kernel, solve_kernels),
+        *map(lanes_printer.print_lanes_kernel, solve_kernels),
     ]
     return "\n".join(
         [
             *slopes,
             *state_kernels,
-            *map(lanes_printer.print_kernel, (newton.substitute_kernel, newton.solve_kernel)),
+            *map(lanes_printer.print_lanes_kernel, (newton.substitute_kernel, newton.solve_kernel)),
             *complex_step_texts,
         ]
     )

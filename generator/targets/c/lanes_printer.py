@@ -224,7 +224,7 @@ def print_statements(statements: Sequence[Statement]) -> str:
     )
 
 
-def print_kernel(kernel: Kernel) -> str:
+def print_lanes_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors without a status.
 
     Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots, are left out.
@@ -263,4 +263,4 @@ def print_kernel_with_fallback(kernel: Kernel) -> str:
 
     The C function adds the lanes in which a pivot fails its test; for these the engine falls back to single runs.
     """
-    return print_kernel(replace(kernel, arguments=(*kernel.arguments, _FALLBACK_MASK)))
+    return print_lanes_kernel(replace(kernel, arguments=(*kernel.arguments, _FALLBACK_MASK)))

@@ -145,7 +145,7 @@ class _RangeLinePrinter(functions.LinePrinter):
         return text if value.names & _RANGES else f"make_interval({text})"
 
 
-def print_kernel(kernel: Kernel) -> str:
+def print_interval_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function of intervals of t, q and v (interval arithmetic); parameters stay scalars.
 
     The results in RhsOutputs become intervals in the argument `out`. The engine calls the function to bound event

@@ -26,7 +26,7 @@ def print_taylor_file(series: Series) -> str:
 
 def print_taylor_lanes(series: Series) -> str:
     """Return the structs and functions of the Taylor series for several runs in SIMD lanes."""
-    kernels = (lanes_printer.print_motion_kernel(series.values), lanes_printer.print_kernel(series.terms))
+    kernels = (lanes_printer.print_motion_kernel(series.values), lanes_printer.print_lanes_kernel(series.terms))
     return "\n".join([_print_structs(series, "Lanes"), *kernels])
 
 

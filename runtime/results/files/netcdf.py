@@ -386,14 +386,11 @@ def read_events(file: File, source: KernelSource) -> Array:
 
 
 def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
-    """Return impacts or events as an array of `dtype`; empty without a group. Raises ValueError for unknown names.
-
-    The first field is the index in `names`, stored as such in files of the old format (`is_old`), in others by name.
-    """
+    """Return impacts or events as an array of `dtype`; empty without a group. Raises ValueError for unknown names."""
     owner_column, *other_columns = dtype.names or ()
     if not file.has_entry(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
-    if file.is_old:
+    if file.is_old:  # files of the old format store the indices in `names`, others store names
         owner_indices = file.read_array(f"{kind}.{owner_column}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
