@@ -14,15 +14,16 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
 /*
  * Report the progress of a run for messages about a stall. Called when a run of a batch ends, whatever its status.
  *
- * advanced_time: time in s by which the last MONITOR_STEPS steps advanced. steps[0]: MONITOR_STEPS; steps[1]: 1 if
- * these steps are far shorter than earlier ones, 2 if their number grows exponentially with time, else 0. ended_steps
- * (N_STEP_ENDS): how many steps each kind of event ended since the last check; steps without an event are not reported.
+ * advanced_time: time in s by which the last MONITOR_STEPS steps advanced. monitor_values[0]: MONITOR_STEPS;
+ * monitor_values[1]: 1 if these steps are far shorter than earlier ones, 2 if their number grows exponentially with
+ * time, else 0. ended_steps (N_STEP_ENDS): how many steps each kind of event ended since the last check; steps without
+ * an event are not reported.
  */
-static void report_stall_monitor(const Integrator *run, double *advanced_time, long *steps, long *ended_steps)
+static void report_stall_monitor(const Integrator *run, double *advanced_time, long *monitor_values, long *ended_steps)
 {
     *advanced_time = run->progress.monitor.gain;
-    steps[0] = MONITOR_STEPS;
-    steps[1] = run->progress.monitor.slowdown;
+    monitor_values[0] = MONITOR_STEPS;
+    monitor_values[1] = run->progress.monitor.slowdown;
     for (int k = 0; k < N_STEP_ENDS; k++)
         ended_steps[k] = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++) {

@@ -399,12 +399,12 @@ def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], F
     Powers that units cannot have in the list, such as fractions, are written as `(1 UNIT)**POWER`.
     """
     scale, numerator, denominator, suffix = Decimal(1), list[str](), list[str](), ""
-    for (times, symbol), power in factors:
-        if times != 1 and power != 1:
-            base, operator = f"({times} {symbol})", "/" if power < 0 else " * "
+    for (factor_scale, symbol), power in factors:
+        if factor_scale != 1 and power != 1:
+            base, operator = f"({factor_scale} {symbol})", "/" if power < 0 else " * "
             suffix += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
             continue
-        scale *= times
+        scale *= factor_scale
         for sign, unit, unit_power in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
             exponent = power * int(unit_power or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
             if (
