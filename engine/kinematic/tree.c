@@ -125,7 +125,8 @@ static int complete_position(const KinematicRun *run, const Position *position) 
  * In the regular case the tree coordinates s are reduced from q and v, and q, v, a are recomputed from them. No Newton
  * iteration corrects s: close_step() only tests the Jacobian of the closures and computes the residual phi; its step
  * and rates are not used, and last_correction is 0. If the Jacobian is singular, q and v are kept, the equations of
- * motion of all bodies give a, and last_correction is infinity. Return 0, or N_LOOPS plus the status of dynamics().
+ * motion of all bodies give a, and last_correction is infinity. Return 0, or the status of
+ * dynamics(), to which N_LOOPS is added if it is positive.
  */
 static int initialize_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
