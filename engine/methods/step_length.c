@@ -395,13 +395,10 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
         run->discrete.is_frozen = 0;
         return request_retry(run);
     }
-    if (trial_status == STOPPED)
+    if (is_fixed && !trial_status)
+        (void)is_step_unresolved(run, step, p); /* stores the samples in which events are searched */
+    if (trial_status == STOPPED || is_fixed)
         return 1;
-    if (is_fixed) { /* is_step_unresolved() stores the samples in which events are searched */
-        if (!trial_status)
-            (void)is_step_unresolved(run, step, p);
-        return 1;
-    }
     const int is_within_tolerance = !trial_status && step->error <= run->control.max_accepted_error;
     const double end_error = is_within_tolerance ? estimate_film_error_at_ends(run, step, FILM_PART) : 0.0;
     if (is_within_tolerance && !can_skip_film_error(run, step, end_error)) {

@@ -61,17 +61,15 @@ class Flow:
         source = compiled.source
         self.compiled, self.p = compiled, compute_values_without_baumgarte(compiled, run.given, run.is_given)
         self.is_reduced = source.formulation == "reduced"
-        self.m, self.n_dep = (
-            (len(source.tree_coordinates), len(source.driven_loop_coordinates)) if self.is_reduced else (compiled.n, 0)
-        )
+        self.m = len(source.tree_coordinates) if self.is_reduced else compiled.n
+        self.n_dep = len(source.driven_loop_coordinates) if self.is_reduced else 0
         self.is_angle, self.n_joints = find_integrated_angles(source), len(source.clearances)
         rows = [row.owner for row in source.start_equations]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
         self.radial_clearances = [float(self.p[joint.clearance]) for joint in source.clearances]
         self.depths = [get_contour_depths(source, self.p, joint.name) for joint in source.clearances]
-        first = (joint.first for joint in source.clearances)
         # index into q of the x coordinate of each bearing; −1: ground
-        self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]
+        self.bearing = [source.bodies[joint.first].index if joint.first >= 0 else -1 for joint in source.clearances]
         self._allocate_buffers()
 
     def _allocate_buffers(self) -> None:
