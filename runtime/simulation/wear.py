@@ -85,7 +85,7 @@ def wear(
     without `hardness` the specific wear rate k/H, '1e-6 mm^3/N/m', in m³/(N·m). `journal_k`, `journal_hardness`: those
     of the journal, if they differ. `law`: worn volume k F_n s/H over the sliding distance s ("archard"), or k/H times
     the work of friction ("reye"). `contact`: the force acts at the "point" of contact, or is distributed by a parabola
-    over the arc in which the undeformed circles "overlap", cos β ≥ c/e. `points`: number of cells of a circumference.
+    over the arc in which the undeformed circles "overlap", cos φ_w ≥ c/e. `points`: number of cells of a circumference.
     `since`, `until` (s): the part of the run that is evaluated, for example without the transient at the start.
 
     Raises UnknownNameError for a joint without play, BadValueError for arguments, for a joint without dry contact and
