@@ -10,6 +10,7 @@
 #define AUDIT_MIN_SPEED_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
+#define AUDIT_MIN_TIME_ULPS 64.0 /* of the time: shorter times between compared velocities are rounding */
 #define AUDIT_DIFFERENCE_STEPS 1e3 /* steps of the integrator that count as a time scale of motion and drives */
 #define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
 #define AUDIT_CLOSURE_TOL 1e-9     /* of the size: error of positions that accelerations must not depend on */
@@ -234,9 +235,11 @@ static void check_accelerations(Integrator *run, double t, double step_length, c
     }
     for (double fraction = 1e-5; fraction > 1e-8 && rate > 0.0; fraction *= 0.03) {
         const double h = fraction * min_of(1.0 / rate, AUDIT_DIFFERENCE_STEPS * step_length);
+        if (h < AUDIT_MIN_TIME_ULPS * DBL_EPSILON * fabs(t))
+            return;
         for (int k = 0; k < N_Q; k++)
             if (DBL_EPSILON * fabs(absolute_state[N_Q + k]) > 0.1 * AUDIT_ACCELERATION * h * scale[k])
-                return; /* h is so short that differences of velocities are rounding */
+                return; /* differences of velocities are rounding */
         double largest_difference = 0.0, second_difference = 0.0;
         int index = 0;
         const double interval = compute_neighbouring_states(run, t, y, dy, h, p, neighbours);

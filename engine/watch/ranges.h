@@ -253,7 +253,7 @@ static inline Interval interval_atan2(Interval y, Interval x)
  * extends by half of the neighbouring periods. If more than one period is possible, the whole period with unbounded
  * slope is returned. Empty if a/b is.
  */
-static inline Interval interval_mod_on(Interval a, Interval b, Interval branch)
+static inline Interval interval_mod_on_branch(Interval a, Interval b, Interval branch)
 {
     const Interval x = interval_mul(a, interval_inverse(b));
     const double frozen = branch.lo == branch.hi ? branch.lo : 0.0, offset = frozen < 0.0 ? 1.0 : 0.0;
@@ -271,7 +271,7 @@ static inline Interval interval_mod_on(Interval a, Interval b, Interval branch)
 }
 
 /* Return bounds of mod(a, b) without a frozen branch. */
-static inline Interval interval_mod_of(Interval a, Interval b) { return interval_mod_on(a, b, make_interval(0.0)); }
+static inline Interval interval_mod_of(Interval a, Interval b) { return interval_mod_on_branch(a, b, make_interval(0.0)); }
 
 /* Return whether one of the points first + 2 n, n being an integer, is in [lower, upper]. */
 static inline int contains_sequence_point(double lower, double upper, double first)

@@ -99,6 +99,11 @@ def find_memory_address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> 
     return int(ffi.cast("uintptr_t", make_pointer(ffi, array, kind, True)))
 
 
+def make_column_pointer(ffi: Any, column: NDArray[np.float64]) -> Any:
+    """Return a C pointer to the first of the doubles of a column (N,) with any stride; the caller keeps the array."""
+    return ffi.cast("double *", column.ctypes.data)
+
+
 def _has_shape(array_shape: tuple[int, ...], shape: Shape) -> bool:
     """Return whether an array's shape `array_shape` agrees with a required shape, whose None fits any length."""
     for required_length, length in zip(shape, array_shape, strict=False):

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.integrators.reusable_run import N_ROWS, ReusableRun
+from gudgeon.model.arrays import make_column_pointer
 from gudgeon.model.compiled import Array
 from gudgeon.model.evaluation import Evaluation, allocate_evaluation
 from gudgeon.results.batch import find_evaluation_fields
@@ -61,7 +62,7 @@ class SampleReader:
         ffi = compiled.ffi
         self._addresses = ffi.new(
             "double *[]",
-            [ffi.NULL if x is None else ffi.cast("double *", x.ctypes.data) for row in arrays for x in row],
+            [ffi.NULL if x is None else make_column_pointer(ffi, x) for row in arrays for x in row],
         )
         self._strides = np.array([0 if x is None else x.strides[0] // x.itemsize for x in arrays[0]], np.int_)
         repeated.columns, repeated.strides = self._addresses, compiled.pointer(self._strides, "long *")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+import re
 import shutil
 import subprocess
 from collections.abc import Sequence
@@ -152,13 +153,14 @@ def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulat
     ffi = FFI()
     calls = select_declarations(source)
     ffi.cdef(calls)
-    struct = "Batch" if "} Batch;" in calls else "KinematicBatch"
-    fields = [field for field, _ in ffi.typeof(struct).fields]
-    same = [f'_Static_assert(offsetof({struct}, {f}) == offsetof(Told, {f}), "{f}");' for f in fields]
-    same += [f'_Static_assert(sizeof({struct}) == sizeof(Told), "{struct}");']
-    others = ("MotionSeries", "gudgeon_motion_series")  # defined again under other names
-    renamed = "".join(f"#define {x} told_{x}\n" for x in others)
-    message = f"#define {struct} Told\n{renamed}{calls}#undef {struct}\n"
+    structs = re.findall(r"^} (\w+);", calls, re.MULTILINE)
+    same = []
+    for struct in structs:
+        fields = [field for field, _ in ffi.typeof(struct).fields]
+        same += [f'_Static_assert(offsetof({struct}, {f}) == offsetof(told_{struct}, {f}), "{f}");' for f in fields]
+        same.append(f'_Static_assert(sizeof({struct}) == sizeof(told_{struct}), "{struct}");')
+    names = [*structs, *re.findall(r"\bgudgeon_\w+(?=\()", calls)]  # defined again under other names
+    message = "".join(f"#define {x} told_{x}\n" for x in names) + calls + "".join(f"#undef {x}\n" for x in names)
     (tmp_path / "both.c").write_text(WHOLE + message + "\n".join(same) + "\n", encoding="utf-8")
     compile_c(COMPILERS[0], tmp_path / "both.c", [*FLAGS, "-fsyntax-only"])
 
