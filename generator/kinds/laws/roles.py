@@ -58,7 +58,7 @@ TINY = 1e-150
 VISCOUS = number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),))
 EXTRA_CLEARANCE = number(
     "extra_clearance",
-    "added to the radial clearance, in the film law only",
+    "added to the radial clearance of the film",
     LENGTH,
     symbol="c_a",
     default=0.0,
