@@ -247,6 +247,7 @@ def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
     assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {
         "machine",
         "ratios",
+        "faster",
         "bars",
         "setups",
         "evaluations",

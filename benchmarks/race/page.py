@@ -177,6 +177,29 @@ def ratios(record: Record) -> list[str]:
     return grid(["problem", "error", "solver", *_name_columns(map(power, RATIO_LEVELS))], rows, words=3)
 
 
+def faster(record: Record) -> list[str]:
+    """Return the table of the solvers that are faster than the default method at one of the errors of a problem.
+
+    A row has the times divided by those of the default method, one for each error; a batch is compared with a batch.
+    """
+    rows = []
+    for work, measures in MEASURES.items():
+        for name in (n for n in record.entries(work) if not record.is_own(work, n)):
+            default = find_default(record, work)
+            batch = f"{default}, a batch"
+            own = batch if name.endswith(", a batch") and batch in record.entries(work) else default
+            for measure in measures:
+                levels = [level for level in levels_of(work, measure) if is_reached(record, work, measure, level)]
+                found = []
+                for call in (False, True):
+                    times = [[record.time_to(work, n, measure, level, call) for level in levels] for n in (name, own)]
+                    found.append([other / mine for other, mine in zip(*times, strict=True)])
+                if any(ratio < 1.0 for ratios_of_kind in found for ratio in ratios_of_kind):
+                    errors = f"{measure}: {', '.join(map(power, levels))}"
+                    rows.append([f"`{work}`", errors, name, *(", ".join(map(number, x)) for x in found)])
+    return grid(["problem", "error", "solver", "engine", "call"], rows, words=5)
+
+
 def _name_columns(errors: Iterable[str]) -> list[str]:
     """Return the heads of the columns of engine times at some errors, then of call times."""
     errors = list(errors)
@@ -217,7 +240,8 @@ def setups(record: Record) -> list[str]:
         for name in record.entries(work):
             names_by_time.setdefault(number(record.setup(work, name)), []).append(name)
         rows += [[f"`{work}`", "; ".join(names), time] for time, names in names_by_time.items()]
-    return grid(["problem", "solvers", "set-up, s"], rows, words=2)
+    note = ["", "A dash means that the set-up took more than 120 s."]
+    return grid(["problem", "solvers", "set-up, s"], rows, words=2) + note * any(time == "–" for *_, time in rows)
 
 
 def machine_facts(record: Record) -> list[str]:
@@ -249,7 +273,13 @@ def facts(record: Record, work: str = "") -> list[str]:
 
 def blocks(record: Record) -> dict[str, str]:
     """Return the texts between the marks by name."""
-    found = {"machine": facts(record), "ratios": ratios(record), "bars": bars(record), "setups": setups(record)}
+    found = {
+        "machine": facts(record),
+        "ratios": ratios(record),
+        "faster": faster(record),
+        "bars": bars(record),
+        "setups": setups(record),
+    }
     found["evaluations"] = evaluations(record)
     for work, measures in MEASURES.items():
         lines = facts(record, work)

@@ -275,7 +275,7 @@ def test_the_page_of_laws_is_current() -> None:
 def test_the_page_of_laws_defines_each_symbol_of_an_equation() -> None:
     """A table of symbols leaves out those of keys; a letter that no table defines is an error."""
     rows = [*list_symbol_rows([r"F_n = K \delta^n + F_{\mathrm{el}}"], "hertz", ["K", "n"])]
-    assert [row.split(" | ")[0] for row in rows[2:-1]] == ["| $F_n$", r"| $\delta$", r"| $F_{\text{el}}$"]
+    assert [row.split(" | ")[0] for row in rows[2:-1]] == ["| $F_n$", r"| $F_{\text{el}}$", r"| $\delta$"]
     with pytest.raises(ValueError, match="does not define the symbol Q_1"):
         list(list_symbol_rows([r"F_n = Q_1 \delta"], "hertz"))
     assert "defines all symbols" not in page_of_laws() and "$L/(2R_j)$" in page_of_laws()

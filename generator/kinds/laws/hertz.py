@@ -59,7 +59,7 @@ LAW = Law(
             symbol="K",
             bounds=(Bound(">", 0.0),),
             per="exponent",
-            otherwise="it follows from materials and radii",
+            otherwise="from materials and radii",
         ),
         number(
             "exponent",

@@ -78,11 +78,10 @@ LAW = Law(
     role="film",
     title="Ocvirk: short journal bearing, half film or full film, with squeeze",
     equation=(
-        r"\begin{pmatrix} F_r \\ F_t \end{pmatrix} = S \int_{\varphi_1}^{\varphi_1"
-        r" + \pi} \frac{\frac{1}{2} \omega_s \varepsilon \sin\varphi - \dot\varepsilon \cos\varphi}{(1"
+        r"\begin{pmatrix} F_r \\ F_t \end{pmatrix} = -S \int_{\varphi_1}^{\varphi_1"
+        r" + \pi} \frac{w_n \cos\varphi + w_t \sin\varphi}{(1"
         r" + \varepsilon \cos\varphi)^3} \begin{pmatrix} \cos\varphi \\ \sin\varphi \end{pmatrix} d\varphi",
-        r"S = \frac{\mu R_j L^3}{c^2}, \quad \varphi_1 = \mathrm{atan2}\left(\dot\varepsilon, \tfrac{1}{2} \omega_s"
-        r" \varepsilon\right)",
+        r"S = \frac{\mu R_j L^3}{c^2}, \quad \varphi_1 = \mathrm{atan2}(w_n, -w_t)",
     ),
     source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "

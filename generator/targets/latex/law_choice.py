@@ -73,10 +73,11 @@ def describe_choice_of_laws(laws_by_role: Mapping[str, Iterable[Law]]) -> Iterat
     """
     yield from ("## Choice of a law", "")
     yield (
-        "A run also stops at a penetration of $R_i/10$ if that is smaller than the limit of its law. In a guide, the"
-        " half-height of the slider plus the gap replaces $R_i$. All friction laws are for any geometry, and both laws"
-        " of mixed lubrication for rough surfaces."
+        "The tables list the laws by the key of a contact, with the geometry and the use of each law. A run stops where"
+        " the law of its normal force is no longer valid. It also stops at a penetration of $R_i/10$ if that is smaller"
+        " than the limit of the law. In a guide, the half-height of the slider plus the gap replaces $R_i$."
     )
+    yield from ("", "All friction laws are for any geometry, and both laws of mixed lubrication for rough surfaces.")
     for role, laws in laws_by_role.items():
         columns = _COLUMNS[role]
         yield from ("", f"Laws of the key `{role}`:", "")

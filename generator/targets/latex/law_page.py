@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.kinds.laws.dissipation import (
@@ -53,20 +53,40 @@ _EXAMPLES = {
     "kelvin_voigt.damping": "2e3 N*s/m",
     "lugre.stiffness": "1e5",
 }
+# Keys of the example of a law with the option `dissipation`: without them, its restitution of 1 has no damping.
+_DISSIPATIVE_EXAMPLE = {"restitution": "0.8", "dissipation": EXACT}
+# Symbol of a key on this page, by law and key: the quantity that the equations have.
+_SYMBOLS_OF_KEYS = {"expression.force": r"F_{\text{el}}"}
+# Value of `dissipation`: author and year in its table; the references at the end of the page have the rest.
+_AUTHORS = {
+    "hunt_crossley": "Hunt and Crossley (1975)",
+    "herbert_mcwhannell": "Herbert and McWhannell (1977)",
+    "lee_wang": "Lee and Wang (1983)",
+    "lankarani_nikravesh": "Lankarani and Nikravesh (1990)",
+    "gonthier": "Gonthier et al. (2004)",
+    "zhiying_qishao": "Qin and Lu (2006)",
+    "flores": "Flores et al. (2011)",
+    "hu_guo": "Hu and Guo (2015)",
+}
 # The role's sentence before its laws, and that of the law of rigid surfaces.
 _INTRODUCTIONS = {
     "normal": r"The normal force $F_n$ follows from the penetration $\delta$ and its rate $\dot\delta$.",
     "friction": "The friction force $F_t$ follows from the normal force $F_n$ and the slip $v_t$.",
     "film": r"The components $F_r$ and $F_t$ of the film force follow from the eccentricity ratio $\varepsilon$ and the"
     " effective squeeze velocity, $w_n$ and $w_t$.",
-    "mixed": "The force $F$ is a mean of the dry force and the film force with the weights $b$ and $1 - b$. The weight"
-    r" $b$ is not the fraction of the load that the dry contact carries: that is $b F_{\text{dry}}/F$.",
+    "mixed": "The force $F$ is a mean of the dry force and the film force with the weights $b$ and $1 - b$. The dry"
+    r" contact carries the fraction $b F_{\text{dry}}/F$ of the load, which is not $b$.",
 }
 _RIGID = (
     r"In an impact of rigid surfaces, the rate of the penetration changes from $\dot\delta^{-}$ to $\dot\delta^{+}$. In"
     r" a closed contact, the normal force $F_n$ or the acceleration $\ddot\delta$ of the penetration is zero."
 )
-_HEADINGS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
+_HEADINGS = {
+    "normal": "The normal force",
+    "friction": "Friction",
+    "film": "Lubricant films",
+    "mixed": "Mixed lubrication",
+}
 _CONTACT_MODULUS = r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}"
 # Laws that most scenes use; they are described first in their role.
 _COMMON_LAWS = (
@@ -99,11 +119,11 @@ def print_laws_page() -> str:
     for role, laws in laws_by_role.items():
         lines += [f"## {_HEADINGS[role]}", "", _INTRODUCTIONS[role], ""]
         common = _find_common_symbols(laws)
-        lines += ["These symbols occur in several laws of this chapter:", ""]
+        lines += ["These symbols occur in several laws of this group:", ""]
         lines += list_symbol_rows([", ".join(common)], "")
         lines += [line for law in laws for line in _describe_law_in_markdown(law, common)]
         lines += _describe_dissipation() if role == "normal" else ()
-    return "\n".join(lines)
+    return "\n".join([*lines, *_list_references()])
 
 
 def _list_equations(law: Law) -> list[str]:
@@ -206,9 +226,21 @@ def _describe_dissipation() -> Iterator[str]:
             f"{c_e if name == EXACT else compute_delivered_restitution(float(FACTORS[str(name)](c_e))):.4f}"
             for c_e in SPECIFIED_RESTITUTIONS
         )
-        source = _format_source(SOURCES.get(str(name), ""))
+        source = f"[{_AUTHORS[str(name)]}](#references)" if name in _AUTHORS else "–"
         yield f"| `{name}` | {formula} | {' | '.join(e)} | {_SOURCE_OF_EXACT if name == EXACT else source} |"
     yield from ("", "`gudgeon laws hertz` prints the steps of Newton's method for `dissipation: exact`.", "")
+
+
+def _list_references() -> Iterator[str]:
+    """Yield the Markdown lines with the publications of the dissipation factors, one item for each."""
+    yield from (
+        "## References",
+        "",
+        "Sources of the [hysteresis damping factors](#the-dissipation-of-a-normal-force):",
+        "",
+    )
+    yield from (f"- **{author}**: {_format_source(SOURCES[name])}." for name, author in _AUTHORS.items())
+    yield ""
 
 
 def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterator[str]:
@@ -236,7 +268,8 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
         yield from (f"`gudgeon laws {law.name}` defines the symbols of these equations.", "")
     for form in forms:
         yield from _describe_choice(form)
-    yield from _print_keys_table([field for field in law.fields if field.name not in common_options])
+    symbols = {key.split(".")[1]: sign for key, sign in _SYMBOLS_OF_KEYS.items() if key.split(".")[0] == law.name}
+    yield from _print_keys_table([field for field in law.fields if field.name not in common_options], symbols)
     if shared := [f"`{option.name}`" for option in law.options if option.name in common_options]:
         *first, last = shared
         names = f"{', '.join(first)} and {last}" if first else last
@@ -247,9 +280,11 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
 
 
 def make_example(law: Law) -> str:
-    """Return a line of YAML of a contact with the law and its required keys."""
+    """Return a line of YAML of a contact with the law, its required keys, and a dissipation if the law has a choice."""
     required = [field.name for field in law.fields if field.required]
     values = {name: _EXAMPLES.get(f"{law.name}.{name}") or _EXAMPLES[name] for name in required}
+    if any(option.name == DISSIPATION.name for option in law.options):
+        values |= _DISSIPATIVE_EXAMPLE
     return f"{law.role}: {{{', '.join([f'law: {law.name}', *(f'{name}: {value}' for name, value in values.items())])}}}"
 
 
@@ -309,14 +344,16 @@ def _print_latex(equation: Equation) -> str:
     return latex.replace(r"\allowbreak ", "").replace(r"\operatorname{max}", r"\max").replace("{} ", " ")
 
 
-def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
+def _print_keys_table(fields: Sequence[Field], symbols: Mapping[str, str]) -> Iterator[str]:
     """Yield the lines of the Markdown table of a law's keys, then an empty line.
 
-    Columns: key, symbol, unit, condition, default, meaning.
+    Columns: key, symbol, unit, condition, default, meaning. `symbols`: symbols that replace those of some keys.
     """
     yield from ("| key | symbol | unit | condition | default | meaning |", "|" + "---|" * 6)
     for parameter in fields:
         cells = _list_number_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
+        if symbol := symbols.get(parameter.name):
+            cells = (f"${symbol}$", *cells[1:])
         yield (
             "| "
             + " | ".join(
@@ -330,25 +367,25 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
 def _list_number_cells(parameter: Field) -> tuple[str, ...]:
     """Return the cells of a numerical key of a law: symbol, unit, condition, effect without the key.
 
-    The last one is "needed", the default, or the words of `parameter.otherwise`.
+    The last one is "required", the default, or the words of `parameter.otherwise`.
     """
-    unit = "N/m$^n$" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension))
+    unit = "N/m$^n$" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension)) or "1"
     default = (
-        "needed"
+        "required"
         if parameter.required
         else parameter.otherwise
         if parameter.default is None
         else f"{parameter.default:g}"
     )
-    condition = describe_condition(parameter).replace(">=", "≥").replace("<=", "≤")
+    condition = describe_condition(parameter).replace(">=", "≥").replace("<=", "≤") or "–"
     return f"${get_latex_symbol(parameter)}$", unit, condition, default
 
 
 def _list_option_cells(option: Field) -> tuple[str, ...]:
     """Return the cells of an option of a law: its values and its default; it has neither symbol nor unit."""
     return (
-        "",
-        "",
+        "–",
+        "–",
         ", ".join(f"`{format_option(value)}`" for value in option.values),
         f"`{format_option(option.default_option)}`",
     )
