@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-SHA256 = "3d8337119c47b0bb2e7980be0723ab7828661600af5d12fd6a85060d4927dcff"  # SHA-256 of these declarations
+SHA256 = "201e330e8b79471586435ba707e85ecb2f8f696046e90e7f188a8a1f5369a9c7"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
