@@ -20,6 +20,7 @@ from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
 from gudgeon.generator.kinds.laws.law import RESULTS, find_bundled_laws
 from gudgeon.generator.marked_text import get_markdown
+from gudgeon.generator.targets.latex.law_page import SYMBOLS_OF_KEYS
 from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_symbol
 from gudgeon.generator.targets.latex.play import BEARING_DIMENSIONS
@@ -33,8 +34,8 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
 LEAD = """# Notation
 
 This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper,
-YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. "The paper"
-is Chen, Gao and Wang (2022).
+YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. To find the
+symbol of a name in C, use [the index](#index-of-names-in-c). "The paper" is Chen, Gao and Wang (2022).
 
 Example of a row: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
 `rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
@@ -43,17 +44,20 @@ relative to the bearing's. Every other row is read in the same way.
 Conventions:
 
 - On this page, a symbol stands for one quantity, except $K$, $S$, $v_0$, $c$, $c_e$ and $c_f$, which each force law or
-  joint type defines. [Algorithms](algorithms.md) and [predictability](predictability.md) define further symbols.
+  joint type defines.
+- Further symbols are defined where they are used: [algorithms](algorithms.md),
+  [error control](error_control.md), [predictability](predictability.md) and
+  [runs and results](runs_and_results.md).
 - Bold letters are vectors.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
 - The sign – in a column marks a quantity that has no name there.
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - Variables have the sign of their quantity. Two variables have the opposite sign: `rhs->clearance[i].F_n` in C and the
-  attribute `F_n` of `equations.dynamics` are $-F_n$.
+  attribute `F_n` of `equations.dynamics` are $-F_n$. The local variable `F_n` of the functions of a joint is $F_n$
+  without a contour, and $F_\\delta$ with a contour.
 - Some names in C differ from the term of their quantity: see
   [the table of these names](#names-in-c-that-differ-from-the-term).
 
-[The index](#index-of-names-in-c) leads from a name in C to its symbol.
 [Other symbols of the equations](#other-symbols-of-the-equations) are intermediate and general quantities.
 
 `make tables` writes this page from the declarations in the code. A test compares the page with the symbols of
@@ -107,9 +111,7 @@ MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "e": "eccentricity: distance of the centres of journal and bearing",
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, $\\delta = e - c$; in a non-circular bearing, $c$ is that at the angle of the journal",
-    "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
-    "in a film alone, $F_n = -F_r$. In a closed contact of rigid surfaces, $F_n$ is the multiplier of $\\delta = 0$ "
-    "and the member `contact->force` of `engine/run/impacts.c`",
+    "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal",
     "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
     "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
@@ -210,8 +212,8 @@ MIXED = (
     ("\\eta", "height of an asperity divided by $\\sigma_r$", "", "", "1"),
     (
         "F_{5/2}",
-        "$\\int_\\Lambda^\\infty (\\eta - \\Lambda)^{5/2} \\phi(\\eta)\\,d\\eta$, "
-        "with the standard normal density $\\phi$",
+        "$\\int_\\Lambda^\\infty (\\eta - \\Lambda)^{5/2} f_{\\text{N}}(\\eta)\\,d\\eta$, "
+        "with the standard normal density $f_{\\text{N}}$",
         "",
         "",
         "1",
@@ -261,6 +263,7 @@ IN_GUIDE = {field: sign for field, sign, _ in GUIDE_LETTERS}
 IN_SECTION = {  # what the words of a declaration do not say: the term of physics.md
     "bearings.NAME.length": "length of the bearing: length of the pin in the hole",
     "contacts.NAME.velocity_floor": "smallest $\\dot\\delta^{-}$ that is stored at the onset of a contact",
+    "bodies.BODY.inertia": "moment of inertia about the centre of mass",
     "guides.NAME.gap": "clearance: gap on each side, half the difference of the widths of slot and slider",
 }
 IN_CONTACT = {"transition": "e_0", "velocity_floor": "v_{\\min}"}  # as physics.md
@@ -278,7 +281,7 @@ IN_PAPER = {
 DERIVED = (  # name in the functions of the laws, quantity, laws, unit
     ("K", "contact stiffness", "laws of the normal force with a stiffness", UNIT_OF_COEFFICIENT),
     ("hysteresis", "hysteresis damping factor, by `dissipation`", "laws with `dissipation`", "1"),
-    ("F_e", "elastic force: the value of the expression $f_\\delta$", "`expression`", "N"),
+    ("F_e", "elastic force: the value of the key `force`", "`expression`", "N"),
     ("friction_slope", "$1/(v_1 - v_0)$", "`modified_coulomb`", "s/m"),
     ("z", "deflection of the bristles", "`dahl`, `lugre`", "m"),
     ("film_clearance", "clearance of the film, $c + c_a$", "all films", "m"),
@@ -296,8 +299,23 @@ DERIVED = (  # name in the functions of the laws, quantity, laws, unit
 C_NAMES = (  # name in C, symbol, quantity, not to be confused with
     ("`steep`", "\\Gamma", "length of the gradient of $\\delta$", ""),
     ("`worn`", "d", "depth of a contour, also without wear", "`worn` in Python, the result of `gudgeon.wear`"),
-    ("`F_N`, with a contour", "F_n", "normal force", ""),
-    ("`F_n`, with a contour", "F_\\delta", "result of the normal law", "the normal force $F_n$"),
+    ("`F_n`, local variable without a contour", "F_n", "normal force", "`rhs->clearance[i].F_n`, which is $-F_n$"),
+    ("`F_n`, local variable with a contour", "F_\\delta", "result of the normal law", "the normal force $F_n$"),
+    ("`F_N`, local variable with a contour", "F_n", "normal force", ""),
+    (
+        "`ex`, `ey`",
+        "e_x$, $e_y",
+        "eccentricity in the results, members of `rhs->clearance[i]`; of a corner of a slider, along the normal of its "
+        "wall",
+        "`e_x`, `e_y`, arguments of the functions of a joint",
+    ),
+    (
+        "`e_x`, `e_y`",
+        "\\mathbf e",
+        "eccentricity vector, arguments of the functions of a joint; of a corner of a slider, its position relative to "
+        "the point of the guide",
+        "`ex`, `ey` of a corner",
+    ),
     ("`share`", "b", "weight of the dry force", ""),
     ("`T0`", "D_s", "shear torque divided by $\\omega_j - \\omega_i$", "a torque: the unit of `T0` is N·m·s"),
     ("`factor`", "f", "correction of the squeeze motion", ""),
@@ -380,6 +398,14 @@ def make_notation_page() -> str:
         "",
     ]
     lines += _format_table(head, _iterate_play_rows())
+    lines += [
+        "",
+        "- In a film alone, $F_n = -F_r$.",
+        "- In a closed contact of rigid surfaces, $F_n$ is the multiplier of $\\delta = 0$ and the member",
+        "  `contact->force` of `engine/run/impacts.c`.",
+        "",
+        "Further quantities of a joint with play:",
+    ]
     head_of_quantities = ("symbol", "quantity", "Python", "C", "unit")
     lines += ["", *_format_table(head_of_quantities, _iterate_step_rows())]
     for title, text, rows in QUANTITIES:
@@ -396,7 +422,8 @@ def make_notation_page() -> str:
         "## Parameters of the file",
         "",
         "In Python, `parameters={KEY: value}` of a run sets a parameter by its YAML key. In C, `model.h` declares each",
-        "parameter as a member of `struct Parameters`, with its key in a comment.",
+        "parameter as a member of `struct Parameters`, with its key in a comment. [Format](format.md) gives the rules",
+        "of each key, such as special values.",
     ]
     parameter_head = ("symbol", "quantity", "in the paper", "YAML and Python", "C", "unit")
     for title, path, record in SECTIONS:
@@ -500,15 +527,21 @@ def _format_table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[st
     """Return the lines of a Markdown table; an empty cell gets the sign of a quantity without a name."""
     head = tuple(head)
     lines = [f"| {' | '.join(cell or NONE for cell in row)} |" for row in (head, ["---"] * len(head), *rows)]
-    return [re.sub(r"_\{(\w)\}|_\{\\text\{(\w)\}\}", lambda found: f"_{found[1] or found[2]}", line) for line in lines]
+    lines = [line.replace(r"_{\mathrm{max}}", r"_{\max}") for line in lines]
+    lines = [re.sub(r"_\{\\mathrm\{(\w+)\}\}", r"_{\\text{\1}}", line) for line in lines]
+    return [
+        re.sub(r"_\{(\w)\}|_\{\\text\{([a-z])\}\}", lambda found: f"_{found[1] or found[2]}", line) for line in lines
+    ]
 
 
 def _index_names(lines: Iterable[str]) -> list[tuple[str, str, str]]:
     """Return name in C, symbol and section of each variable in the tables of the page, by name.
 
-    Members of `struct Parameters` are left out: their key is in a comment of `model.h`.
+    Members of `struct Parameters` are left out: their key is in a comment of `model.h`. A name with several meanings
+    has a row for each of them.
     """
-    found, section, column = set(), "", -1
+    section_of_names, section, column = "Names in C that differ from the term", "", -1
+    found = {(name, f"${symbol}$", section_of_names) for name, symbol, *_ in C_NAMES if name[:4] in ("`F_n", "`F_N")}
     for line in "\n".join(lines).splitlines():
         cells = line.removeprefix("| ").removesuffix(" |").split(" | ")
         if line.startswith("## "):
@@ -518,7 +551,8 @@ def _index_names(lines: Iterable[str]) -> list[tuple[str, str, str]]:
         elif line.startswith("| $") and column >= 0:
             names = re.findall(r"`([^`]+)`", cells[column])
             signs = {name: "−" * (f"−`{name}`" in cells[column]) for name in names}
-            found |= {(f"`{x}`", signs[x] + cells[0], section) for x in names if not x.startswith("p->")}
+            shown = {"F_n": "rhs->clearance[i].F_n"}
+            found |= {(f"`{shown.get(x, x)}`", signs[x] + cells[0], section) for x in names if not x.startswith("p->")}
     return sorted(found, key=lambda row: (row[0].lower(), row))
 
 
@@ -574,7 +608,7 @@ def _iterate_law_rows() -> Iterator[tuple[str, ...]]:
         for law in find_bundled_laws().values():
             for field in law.parameters if law.role == role else ():
                 row = (
-                    get_latex_symbol(field),
+                    SYMBOLS_OF_KEYS.get(f"{law.name}.{field.name}") or get_latex_symbol(field),
                     get_markdown(field.meaning),
                     f"contacts.NAME.{role}.{field.name}",
                     _format_unit(field),

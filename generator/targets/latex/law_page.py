@@ -56,7 +56,7 @@ _EXAMPLES = {
 # Keys of the example of a law with the option `dissipation`: without them, its restitution of 1 has no damping.
 _DISSIPATIVE_EXAMPLE = {"restitution": "0.8", "dissipation": EXACT}
 # Symbol of a key on this page, by law and key: the quantity that the equations have.
-_SYMBOLS_OF_KEYS = {"expression.force": r"F_{\text{el}}"}
+SYMBOLS_OF_KEYS = {"expression.force": r"F_{\text{el}}"}
 # Value of `dissipation`: author and year in its table; the references at the end of the page have the rest.
 _AUTHORS = {
     "hunt_crossley": "Hunt and Crossley (1975)",
@@ -268,7 +268,7 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
         yield from (f"`gudgeon laws {law.name}` defines the symbols of these equations.", "")
     for form in forms:
         yield from _describe_choice(form)
-    symbols = {key.split(".")[1]: sign for key, sign in _SYMBOLS_OF_KEYS.items() if key.split(".")[0] == law.name}
+    symbols = {key.split(".")[1]: sign for key, sign in SYMBOLS_OF_KEYS.items() if key.split(".")[0] == law.name}
     yield from _print_keys_table([field for field in law.fields if field.name not in common_options], symbols)
     if shared := [f"`{option.name}`" for option in law.options if option.name in common_options]:
         *first, last = shared
@@ -328,7 +328,16 @@ def _describe_choice(form: Form) -> Iterator[str]:
 
 def _print_display(equations: Iterable[str]) -> Iterator[str]:
     """Yield the Markdown lines of equations in LaTeX, each between dollar signs."""
-    yield from (line for latex in equations for line in ("$$", latex, "$$", ""))
+    yield from (line for latex in equations for line in ("$$", _print_indices(latex), "$$", ""))
+
+
+def _print_indices(latex: str) -> str:
+    r"""Return LaTeX with the indices in words of the tables of symbols: F_{\mathrm{el}} → F_{\text{el}}."""
+    latex = latex.replace(r"_{\mathrm{max}}", r"_{\max}")
+    for index in ("el", "th", "dry", "film"):
+        text = rf"_{{\text{{{index}}}}}"
+        latex = latex.replace(rf"_{{\mathrm{{{index}}}}}", text).replace(rf"_\mathrm{{{index}}}", text)
+    return latex
 
 
 def _name_film_clearance(law: Law, latex: str) -> str:
@@ -378,7 +387,7 @@ def _list_number_cells(parameter: Field) -> tuple[str, ...]:
         else f"{parameter.default:g}"
     )
     condition = describe_condition(parameter).replace(">=", "≥").replace("<=", "≤") or "–"
-    return f"${get_latex_symbol(parameter)}$", unit, condition, default
+    return f"${_print_indices(get_latex_symbol(parameter))}$", unit, condition, default
 
 
 def _list_option_cells(option: Field) -> tuple[str, ...]:
