@@ -14,7 +14,7 @@ typedef struct {
 
 /*
  * The state of the audit of a run.
- * Written by: run/audit.c, run/check_step_end.c, methods/audit_error.c, methods/audit_step.c.
+ * Written by: run/audit.c, run/audit_state.c, methods/audit_error.c, methods/audit_step.c.
  * Copied by: batch/lane_controlled_steps.c.
  */
 typedef struct {

@@ -271,7 +271,10 @@ static inline Interval interval_mod_on_branch(Interval a, Interval b, Interval b
 }
 
 /* Return bounds of mod(a, b) without a frozen branch. */
-static inline Interval interval_mod_of(Interval a, Interval b) { return interval_mod_on_branch(a, b, make_interval(0.0)); }
+static inline Interval interval_mod_of(Interval a, Interval b)
+{
+    return interval_mod_on_branch(a, b, make_interval(0.0));
+}
 
 /* Return whether one of the points first + 2 n, n being an integer, is in [lower, upper]. */
 static inline int contains_sequence_point(double lower, double upper, double first)
