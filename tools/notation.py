@@ -36,7 +36,8 @@ LEAD = """# Notation
 This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper,
 YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. To find the
 symbol of a name in C, use [the index](#index-of-names-in-c). Names `p->…` are not in the index: they are parameters
-and constants, and `model.h` gives the key or the meaning of each in a comment. "The paper" is Chen, Gao and Wang (2022).
+and constants, and `model.h` gives the key or the meaning of each in a comment. "The paper" is Chen, Gao and
+Wang (2022).
 
 Example of a row: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
 `rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
