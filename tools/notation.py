@@ -35,7 +35,9 @@ LEAD = """# Notation
 
 This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper,
 YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. To find the
-symbol of a name in C, use [the index](#index-of-names-in-c). "The paper" is Chen, Gao and Wang (2022).
+symbol of a name in C, use [the index](#index-of-names-in-c). Names `p->…` are not in the index: they are parameters
+and constants, and `model.h` gives the key or the meaning of each in a comment. "The paper" is Chen, Gao and
+Wang (2022).
 
 Example of a row: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
 `rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
@@ -284,7 +286,12 @@ DERIVED = (  # name in the functions of the laws, quantity, laws, unit
     ("F_e", "elastic force: the value of the key `force`", "`expression`", "N"),
     ("friction_slope", "$1/(v_1 - v_0)$", "`modified_coulomb`", "s/m"),
     ("z", "deflection of the bristles", "`dahl`, `lugre`", "m"),
-    ("film_clearance", "clearance of the film, $c + c_a$", "all films", "m"),
+    (
+        "film_clearance",
+        "clearance of the film, $c + c_a$; with `mixed`, $c_{\\text{mean}} + c_a$",
+        "all films",
+        "m",
+    ),
     ("S", "film factor: the equation of each law defines it", "all films", "N·s"),
     ("root", "$\\sqrt{1 - \\varepsilon^2}$", "all films", "1"),
     ("q", "$\\sqrt{w_n^2 + s_\\varepsilon^2 w_t^2}$", "`finite_length`", "1/s"),
@@ -293,7 +300,12 @@ DERIVED = (  # name in the functions of the laws, quantity, laws, unit
     ("factor", "correction of the squeeze motion", "`pinkus_sternlicht`", "1"),
     ("shear", "shear torque of the centred journal divided by $\\omega_j - \\omega_i$", "films with `shear`", "N·m·s"),
     ("T0", "shear torque $M_\\tau$ divided by $\\omega_j - \\omega_i$", "films with `shear`", "N·m·s"),
-    ("mean_clearance", "clearance between the mean surfaces", "laws of mixed lubrication", "m"),
+    (
+        "mean_clearance",
+        "clearance between the mean surfaces, $c + \\Lambda_0\\sigma_r$",
+        "laws of mixed lubrication",
+        "m",
+    ),
 )
 
 C_NAMES = (  # name in C, symbol, quantity, not to be confused with
@@ -402,7 +414,7 @@ def make_notation_page() -> str:
         "",
         "- In a film alone, $F_n = -F_r$.",
         "- In a closed contact of rigid surfaces, $F_n$ is the multiplier of $\\delta = 0$ and the member",
-        "  `contact->force` of `engine/run/impacts.c`.",
+        "  `contact->force` of the contact state in `engine/scene/types.h`.",
         "",
         "Further quantities of a joint with play:",
     ]
@@ -541,6 +553,7 @@ def _index_names(lines: Iterable[str]) -> list[tuple[str, str, str]]:
     has a row for each of them.
     """
     section_of_names, section, column = "Names in C that differ from the term", "", -1
+    in_list = {("`contact->force`", "$F_n$", "A joint with play")}  # in a list of the page, not in a table
     found = {(name, f"${symbol}$", section_of_names) for name, symbol, *_ in C_NAMES if name[:4] in ("`F_n", "`F_N")}
     for line in "\n".join(lines).splitlines():
         cells = line.removeprefix("| ").removesuffix(" |").split(" | ")
@@ -553,7 +566,7 @@ def _index_names(lines: Iterable[str]) -> list[tuple[str, str, str]]:
             signs = {name: "−" * (f"−`{name}`" in cells[column]) for name in names}
             shown = {"F_n": "rhs->clearance[i].F_n"}
             found |= {(f"`{shown.get(x, x)}`", signs[x] + cells[0], section) for x in names if not x.startswith("p->")}
-    return sorted(found, key=lambda row: (row[0].lower(), row))
+    return sorted(found | in_list, key=lambda row: (row[0].strip("`").lower(), row))
 
 
 def _iterate_play_rows() -> Iterator[tuple[str, ...]]:

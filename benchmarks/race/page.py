@@ -27,7 +27,7 @@ UNITS = {
     "ensemble": ("µs a run", 1e6),
     "sweep": ("ms a run", 1e3),
 }
-RATIO_LEVELS = (1e-6, 1e-8)  # errors of the table of COMPARISONS
+RATIO_LEVELS = (1e-6, 1e-8)  # errors of the summary
 DEFAULT = "gudgeon auto"  # the default method, to which the requirements apply
 
 
@@ -56,24 +56,12 @@ BARS = (
     Bar("long", DEFAULT, ENERGY_LEVELS, "heyoka", 1.0),
     Bar("sweep", f"{DEFAULT}, 1 thread", (1e-6,), most=(3e-3,)),
 )
-# comparisons at the head of the page: problem, its error, another solver
-COMPARISONS = (
-    ("andrews", "angle", "jitcode dop853"),
-    ("andrews", "angle", "heyoka"),
-    ("double", "angle", "heyoka"),
-    ("links", "angle", "heyoka"),
-    ("long", "energy", "heyoka"),
-    ("swings", "energy", "heyoka"),
-    ("ideal", "motion", "Newton in dense C"),
-    ("ensemble", "motion", "closed form in NumPy"),
-    ("dry", "slider", "CVODE BDF from C"),
-    ("dry", "path", "LSODA (SciPy)"),
-    ("sixteen", "path", "NumPy, DOP853"),
-    ("lubricated", "slider", "CVODE BDF from C"),
-    ("lubricated", "path", "CVODE BDF from C"),
-    ("sweep", "worst", "CVODE BDF from C, 1 thread"),
-)
+# other solvers with the method of the default one, which the summary shows in addition to the fastest: problem, solver
+SAME_METHOD = (("andrews", "jitcode dop853"),)
+OF_SUMMARY = ("slider", "path")  # errors of the summary where a problem has several; others have the first error only
+BATCH = ", a batch"
 THREADS = 1.8  # the sweep: two threads over one, at least
+MAX_GAIN = 2.0  # of two threads; a larger measured gain is due to other work of the machine
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 BATCH_FACT = re.compile(r"(?P<measured>[\d.]+) s \(goal: at most (?P<most>[\d.]+) s\)")
 
@@ -138,7 +126,8 @@ def bars(record: Record) -> list[str]:
     if record.entries("sweep"):
         one, two = (record.time_to("sweep", f"{DEFAULT}, {k}", "worst", 1e-6) for k in ("1 thread", "2 threads"))
         goal, ratio = f"2 threads at least {THREADS} times as fast as one", one / two
-        rows.append(["`sweep`", f"worst: {power(1e-6)}", goal, f"{number(ratio)} times", rate([ratio / THREADS])])
+        result = "not decided: other work" if ratio > MAX_GAIN else rate([ratio / THREADS])
+        rows.append(["`sweep`", f"worst: {power(1e-6)}", goal, f"{number(ratio)} times", result])
     for name, value in record.facts.items():
         if name.startswith("sweep, ") and (fact := BATCH_FACT.fullmatch(value)):
             goal = f"{name.removeprefix('sweep, ')}: at most {fact['most']} s"
@@ -160,20 +149,39 @@ def find_default(record: Record, work: str) -> str:
     return next((n for n in names if n.startswith(DEFAULT)), next((n for n in names if record.is_own(work, n)), ""))
 
 
-def ratios(record: Record) -> list[str]:
-    """Return the table of COMPARISONS: times of other solvers divided by those of the default method.
+def find_fastest(record: Record, work: str, measure: str) -> str:
+    """Return the other solver with the shortest engine time at the smallest error of RATIO_LEVELS that one reaches.
 
-    A cell is empty if the table of the problem lacks its error, and a dash if a solver does not reach the error.
+    Batches are left out. "" is returned if no other solver reaches one of these errors.
+    """
+    names = [n for n in record.entries(work) if not record.is_own(work, n) and not n.endswith(BATCH)]
+    for level in sorted(set(RATIO_LEVELS) & set(levels_of(work, measure))):
+        times = {name: record.time_to(work, name, measure, level) for name in names}
+        reached = [name for name in names if math.isfinite(times[name])]
+        if reached:
+            return min(reached, key=times.__getitem__)
+    return ""
+
+
+def ratios(record: Record) -> list[str]:
+    """Return the summary: times of the fastest other solver of each problem divided by those of the default method.
+
+    Solvers of SAME_METHOD have a row too. A cell is empty if the table of the problem lacks its error, and a dash if
+    a solver does not reach the error.
     """
     rows = []
-    for work, measure, peer in (c for c in COMPARISONS if c[2] in record.entries(c[0])):
-        cells = []
-        for call in (False, True):
-            for level in RATIO_LEVELS:
-                own = find_default(record, work)
-                times = [record.time_to(work, name, measure, level, call) for name in (peer, own)]
-                cells.append(number(times[0] / times[1]) if is_reached(record, work, measure, level) else "")
-        rows.append([f"`{work}`", measure, peer, *cells])
+    for work, measures in MEASURES.items():
+        own, same = find_default(record, work), [peer for w, peer in SAME_METHOD if w == work]
+        same = [peer for peer in same if peer in record.entries(work)]
+        for measure in [m for m in measures if m in OF_SUMMARY] or measures[:1]:
+            fastest = find_fastest(record, work, measure)
+            for peer in dict.fromkeys([*same, *([fastest] if fastest or not same else ())]) if own else ():
+                cells = []
+                for call in (False, True):
+                    for level in RATIO_LEVELS:
+                        times = [record.time_to(work, n, measure, level, call) if n else math.nan for n in (peer, own)]
+                        cells.append(number(times[0] / times[1]) if is_reached(record, work, measure, level) else "")
+                rows.append([f"`{work}`", measure, peer or "none", *cells])
     return grid(["problem", "error", "solver", *_name_columns(map(power, RATIO_LEVELS))], rows, words=3)
 
 
@@ -186,8 +194,8 @@ def faster(record: Record) -> list[str]:
     for work, measures in MEASURES.items():
         for name in (n for n in record.entries(work) if not record.is_own(work, n)):
             default = find_default(record, work)
-            batch = f"{default}, a batch"
-            own = batch if name.endswith(", a batch") and batch in record.entries(work) else default
+            batch = default + BATCH
+            own = batch if name.endswith(BATCH) and batch in record.entries(work) else default
             for measure in measures:
                 levels = [level for level in levels_of(work, measure) if is_reached(record, work, measure, level)]
                 found = []
@@ -209,11 +217,24 @@ def _name_columns(errors: Iterable[str]) -> list[str]:
 def table(record: Record, work: str, measure: str) -> list[str]:
     """Return the table of a problem: engine times of all entries to each error, then their call times.
 
-    Columns of errors that no entry reaches are left out.
+    Columns of errors that no entry reaches are left out. If the default method has no tolerance, so that its time is
+    the same for each error, the table has one column of engine times and one of call times. An entry with different
+    times then has a row for each error that it reaches.
     """
     levels = [level for level in levels_of(work, measure) if is_reached(record, work, measure, level)]
     unit, scale = UNITS.get(work, ("ms", 1e3))
-    rows = []
+    rows, own = [], record.of(work, find_default(record, work))
+    if own and all(math.isnan(row.control) for row in own):
+        for name in record.entries(work):
+            pairs = {
+                power(level): [number(record.time_to(work, name, measure, level, x) * scale) for x in (False, True)]
+                for level in levels
+            }
+            if len(set(map(tuple, pairs.values()))) == 1:
+                rows.append([name, *pairs[power(levels[0])]])
+            else:
+                rows += [[f"{name}, error {error}", *pair] for error, pair in pairs.items() if "–" not in pair]
+        return grid([f"{measure}, {unit}", "engine", "call"], rows)
     for name in record.entries(work):
         times = [record.time_to(work, name, measure, level, call) for call in (False, True) for level in levels]
         rows.append([name, *(number(t * scale) for t in times)])
@@ -242,6 +263,16 @@ def setups(record: Record) -> list[str]:
         rows += [[f"`{work}`", "; ".join(names), time] for time, names in names_by_time.items()]
     note = ["", "A dash means that the set-up took more than 120 s."]
     return grid(["problem", "solvers", "set-up, s"], rows, words=2) + note * any(time == "–" for *_, time in rows)
+
+
+def first_setups(record: Record) -> list[str]:
+    """Return the table of the set-up times of gudgeon's default method and of the fastest other solver of a problem."""
+    rows = []
+    for work in (w for w in MEASURES if record.entries(w)):
+        own, peer = find_default(record, work), find_fastest(record, work, MEASURES[work][0])
+        times = [number(record.setup(work, name) if name else math.nan) for name in (own, peer)]
+        rows.append([f"`{work}`", own, peer or "none", *times])
+    return grid(["problem", "gudgeon", "other solver", "set-up of gudgeon, s", "set-up of the other, s"], rows, words=3)
 
 
 def machine_facts(record: Record) -> list[str]:
@@ -279,6 +310,7 @@ def blocks(record: Record) -> dict[str, str]:
         "faster": faster(record),
         "bars": bars(record),
         "setups": setups(record),
+        "first_setups": first_setups(record),
     }
     found["evaluations"] = evaluations(record)
     for work, measures in MEASURES.items():

@@ -48,8 +48,9 @@ LAW = Law(
     validity="heights of the roughness with a nearly normal distribution, uniform over both surfaces",
     properties=MarkedText(
         r"the film acts alone where it is thicker than $3 \sigma_r$, and the dry contact acts alone below $-3 \sigma_r$"
-        r"; the clearance $c$ is measured between the tips of the asperities, and the film has the clearance "
-        r"$c + 3 \sigma_r$; the weight $b$ is the fraction of the area in contact, and is three times differentiable"
+        r"; the clearance $c$ is measured between the tips of the asperities, and the clearance "
+        r"between the mean surfaces is $c + 3 \sigma_r$; "
+        r"the weight $b$ is the fraction of the area in contact, and is three times differentiable"
     ),
     fields=(ROUGHNESS,),
     build=build_christensen_fraction,

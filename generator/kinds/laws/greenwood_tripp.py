@@ -52,8 +52,9 @@ LAW = Law(
     validity="heights of the roughness with a normal distribution",
     properties=MarkedText(
         r"the film acts alone where it is thicker than $4 \sigma_r$, and the dry contact acts alone where the mean "
-        r"surfaces meet; the clearance $c$ is measured between the tips of the asperities, and the film has the "
-        r"clearance $c + 4 \sigma_r$; the weight $b$ is the load of the asperities divided by their load where the "
+        r"surfaces meet; the clearance $c$ is measured between the tips of the asperities, and the "
+        r"clearance between the mean surfaces is $c + 4 \sigma_r$; "
+        r"the weight $b$ is the load of the asperities divided by their load where the "
         r"mean surfaces meet; the approximation of $b$ deviates by at most 0.014"
     ),
     fields=(ROUGHNESS,),

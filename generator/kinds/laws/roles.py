@@ -88,7 +88,10 @@ OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCI
 
 
 def make_film_clearance(inputs: LawInputs) -> Any:
-    """Return the clearance of the film (m), radial clearance c plus `extra_clearance`, as a derived constant."""
+    """Return the clearance of the film (m), `inputs.pair.c` plus `extra_clearance`, as a derived constant.
+
+    `inputs.pair.c` is the radial clearance; in mixed lubrication it is the clearance between the mean surfaces.
+    """
     return inputs.derive(
         "film_clearance", inputs.pair.c + inputs.parameters["extra_clearance"], "clearance of the film"
     )

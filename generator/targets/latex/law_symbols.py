@@ -48,7 +48,11 @@ _SYMBOLS: Mapping[str, tuple[str, str]] = {
     r"R_j": ("radius of the journal", "m"),
     r"L": ("length of the bearing", "m"),
     r"c": ("radial clearance: radius of the bearing minus radius of the journal", "m"),
-    r"c_{film}": ("clearance of the film: radial clearance plus $c_a$", "m"),
+    r"c_{film}": (
+        "clearance of the film: radial clearance plus $c_a$; with `mixed`, clearance between the mean surfaces plus"
+        " $c_a$",
+        "m",
+    ),
     r"c_a": ("key `extra_clearance`", "m"),
     r"\varphi": ("angle from the widest gap", "rad"),
     r"\varphi_1": ("start of the half film", "rad"),
