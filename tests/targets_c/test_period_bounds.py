@@ -25,7 +25,7 @@ void bounds(double lo, double hi, double b, double side, double *out)
 {
     const Interval a = {lo, hi, 1.0, 1.0, 0};
     const Interval y = side == 2.0 ? interval_mod_switching_function(a, make_interval(b))
-        : interval_mod_on(a, make_interval(b), make_interval(side));
+        : interval_mod_on_branch(a, make_interval(b), make_interval(side));
     out[0] = y.lo, out[1] = y.hi, out[2] = y.min_slope, out[3] = y.max_slope;
 }
 """
