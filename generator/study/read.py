@@ -435,8 +435,9 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
     expected_text = "the name of a series, a joint or an event, or a section"
     source_name = check_text_node(node[statistic], f"{address}.{statistic}", statistic, expected_text)
     if statistic in DEPRECATED_STATISTICS:
-        statistic, deprecation = DEPRECATED_STATISTICS[statistic]
+        new_name, deprecation = DEPRECATED_STATISTICS[statistic]
         warn_deprecated(deprecation)
+        statistic = Text.make_text(new_name, statistic.where)
     window = ""
     if "window" in node:
         window_name = check_text_node(

@@ -16,6 +16,7 @@ from gudgeon.cli import app
 from gudgeon.generator.study.read import read_study
 from gudgeon.language.deprecations import DEPRECATIONS, STRESS, Deprecation, warn_deprecated
 from gudgeon.results.lyapunov import Lyapunov
+from gudgeon.web import page
 
 CHANGES = (Path(__file__).parents[2] / "CHANGELOG.md").read_text(encoding="utf-8")
 
@@ -61,3 +62,9 @@ def test_the_old_name_of_a_statistic_warns_and_is_read_as_the_new_one() -> None:
     with pytest.warns(DeprecationWarning, match="use mean_horizon") as message:
         (measure,) = read_study(study).measures
     assert measure.statistic == "mean_horizon" and message[0].filename == __file__
+
+
+def test_the_old_name_for_a_scene_in_a_page_warns(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(page, "embed_scene", lambda compiled: f"<{compiled}>")
+    with pytest.warns(DeprecationWarning, match=r"use gudgeon\.web\.page\.embed_scene"):
+        assert page.carried(cast(Any, "press")) == "<press>"
