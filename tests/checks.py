@@ -285,7 +285,7 @@ def restitution() -> Iterable[Row]:
     found = dry.delivered(dry.dissipation_factor(0.9))
     yield (
         "coefficient of restitution that results from the law of Lankarani and Nikravesh at c_e = 0.9",
-        "a(1+e) = ln[(1+a)/(1−a e)]",
+        "a(1+e_r) = ln[(1+a)/(1−a e_r)]",
         found,
         "0.91318",
         "test_forces.py::test_restitution_of_the_normal_law",

@@ -20,7 +20,10 @@ from tests.programs import needs_compiler
 pytestmark = needs_compiler
 DOCS = Path(__file__).parents[1] / "docs"
 PAGES = sorted((DOCS / "tutorials").glob("*.md"))
-GUIDES = [DOCS / f"{name}.md" for name in ("runs_and_results", "plots_and_animation", "ensembles", "exchange")]
+GUIDES = [
+    DOCS / f"{name}.md"
+    for name in ("runs_and_results", "audit", "wear", "plots_and_animation", "ensembles", "exchange")
+]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 NAMED = re.compile(r"(?:#|//) (\w+\.\w+)\n")
 

@@ -14,7 +14,7 @@ class Method:
     fixed: bool = False  # whether it has a fixed `step` and no tolerance
     slopes: bool = False  # whether it uses the Jacobian, so that forces need finite slopes
     smooth: bool = False  # for smooth motion only; a library has it only on request
-    lanes: bool = False  # whether runs go side by side in vector lanes (`lane` in engine/methods)
+    lanes: bool = False  # whether runs go side by side in vector lanes (`lane_method` in engine/methods)
     staged: bool = False  # implicit stages solved together; a library has it with films, or on request
 
 

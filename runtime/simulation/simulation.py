@@ -263,7 +263,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         `contour`: {joint: depths (m) beyond the circle of its bearing}, for joints with a `contour` in the file; as
         many equal angles as there, from the x axis of the bearing's body.
         `audit`: True checks the result on a sample of the steps, "full" on every step, False not at all
-        (docs/runs_and_results.md).
+        (docs/audit.md).
 
         Ctrl-C ends the run; the Result contains the samples up to then. Raises InputError for arguments (ArrayError for
         arrays), AssemblyError if the start does not close, SolverError if the equations cannot be solved (`partial` is
