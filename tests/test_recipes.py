@@ -125,6 +125,20 @@ def test_the_table_names_each_recipe() -> None:
     ]
 
 
+@pytest.mark.parametrize("name", TRIED)
+def test_the_changes_of_a_recipe_apply_to_the_files_as_they_are(name: str) -> None:
+    """A rename in the sources breaks recipes; this finds it without following them."""
+    texts: dict[str, str] = {}
+    for kind, text, above in blocks((RECIPES / f"{name}.md").read_text(encoding="utf-8")):
+        named = re.findall(r"`([\w./-]+\.\w+)`", above)
+        if kind == "diff":
+            file = named[-1]
+            texts[file] = changed(texts.get(file) or (ROOT / file).read_text(encoding="utf-8"), text)
+        elif kind not in ("sh", "text") and "is an example" not in above:
+            assert "Create" in above and not (ROOT / named[-1]).exists(), above
+            texts[named[-1]] = text
+
+
 NAMED = re.compile(r"((?:`[\w.]+`(?:, | and | or )?)+) (?:of|in) `([\w/.]+/[\w.]+\.\w+)`")
 
 
