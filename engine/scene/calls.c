@@ -82,8 +82,8 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
 }
 
 /*
- * Compute the parameters p from the values that are specified, in SI units: given_values[k] where is_given[k] is 1,
- * defaults where it is 0.
+ * Compute the parameters p from the values that are specified, in SI units: given_values[k] where is_given[k] is 1, its
+ * default value or derived expression where it is 0.
  */
 void gudgeon_prepare(const double *given_values, const unsigned char *is_given, double *p)
 {
@@ -91,8 +91,9 @@ void gudgeon_prepare(const double *given_values, const unsigned char *is_given, 
 }
 
 /*
- * Compute the parameters p of n_runs runs; each has a row of n_values values in `given_values`, and in `is_given`
- * whether each is specified.
+ * Compute the parameters p of n_runs runs, as gudgeon_prepare() does for one: specified values, and default values or
+ * derived expressions for the others. given_values, is_given (n_runs x n_values): the values in SI units, and whether
+ * each is specified. p (n_runs): one struct Parameters per run.
  */
 void gudgeon_prepare_runs(long n_runs, long n_values, const double *given_values, const unsigned char *is_given,
     double *p)

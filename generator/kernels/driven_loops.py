@@ -251,16 +251,20 @@ class DrivenLoopKernels:
         return [symbol for symbol in result if symbol not in system_symbols]
 
     def _make_switch_kernel(self, branches: Sequence[BranchOf]) -> Kernel:
-        """Return the kernel of the switching functions of the loops' drives, which no other function writes.
+        """Return the kernel that writes the switching functions of the drives of driven loops to the output `g`.
 
-        `branches`: the branches (signs of switching functions) that the other functions read, also repeated ones.
+        The other functions of the loops read the branches only, and do not evaluate the switching functions.
+        `branches`: the branches (signs of switching functions) that these functions read. Repeated ones count once.
+        Each branch is a local variable of the kernel, which is otherwise unused.
         """
         builder = KernelBuilder(
-            self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."]
+            self.symbols,
+            "evaluate_loop_switching_functions",
+            ["Switching functions of the drives of dependent loops."],
         )
-        builder.begin_section("corners")
+        builder.begin_section("branches")
         for branch in dict.fromkeys(branches):
-            name = f"side_{branch.args[0]}"
+            name = f"branch_{branch.args[0]}"
             builder.append_instruction(Statement(name, branch))
             builder.append_instruction(MarkUnused(name))
         kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
