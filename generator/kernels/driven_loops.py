@@ -28,7 +28,7 @@ from gudgeon.generator.ir.kernels import (
     remove_unused_locals,
 )
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
-from gudgeon.generator.ir.sine_pairs import vectorize_sines
+from gudgeon.generator.ir.sine_groups import vectorize_sines
 from gudgeon.generator.ir.statements import DeclareBranches, MarkUnused, MaxMagnitudeRow, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareSystem
@@ -241,7 +241,7 @@ class DrivenLoopKernels:
         varying = {k.rate for k in self.loops.coordinates}
         system_symbols = {*self.system.v, *self.system.q}
         result = []
-        for symbol in [s for s in info if s in definitions and not info[s].place]:
+        for symbol in [s for s in info if s in definitions and not info[s].storage_location]:
             read_symbols = definitions[symbol].free_symbols
             if read_symbols & system_symbols:
                 system_symbols.add(symbol)

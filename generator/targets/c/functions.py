@@ -169,7 +169,7 @@ class LinePrinter(ValuePrinter):
         return [
             *comment,
             *declaration,
-            f"if ({self.print_expression(branch.branch)} < 0.0)",
+            f"if ({self.print_expression(branch.active_branch)} < 0.0)",
             f"    {target} = {self.print_expression(branch.value_below)};",
             "else",
             f"    {target} = {self.print_expression(branch.value_above)};",

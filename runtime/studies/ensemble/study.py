@@ -61,12 +61,12 @@ def resolve_plans(
     starts = None if starts is None else check_integer(starts, "starts", 1, MAX_COUNT)
     seed = None if seed is None else check_integer(seed, "seed", 0, MAX_SEED)
     if isinstance(study, Mapping):
-        return _resolve_parts(read_studies(study, "", overrides).replace_starts(starts, seed))
+        return _resolve_parts(read_studies(study, "", overrides).replace_perturbed_starts(starts, seed))
     file = os.fspath(check_path(study, "study"))
     if not (os.path.splitext(file)[1] or os.path.dirname(file) or os.path.lexists(file)):
         file = str(find_shipped_study(file))
     data = read_user_file(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return _resolve_parts(read_studies(data, file, overrides).replace_starts(starts, seed))
+    return _resolve_parts(read_studies(data, file, overrides).replace_perturbed_starts(starts, seed))
 
 
 def _resolve_parts(studies: StudySet) -> Plans:
