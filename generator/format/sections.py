@@ -420,7 +420,7 @@ SCENE = record(
 )
 
 PLAY_START = record(
-    "apart",
+    "value",
     "initial position in a joint with play: for a journal in ground axes, for a slider in its guide",
     vector("e", "eccentricity vector from the bearing's centre to the journal's", LENGTH, otherwise="none"),
     vector("rate", "rate of the eccentricity", VELOCITY, otherwise="none"),

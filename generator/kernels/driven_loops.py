@@ -264,7 +264,7 @@ class DrivenLoopKernels:
         )
         builder.begin_section("branches")
         for branch in dict.fromkeys(branches):
-            name = f"branch_{branch.args[0]}"
+            name = f"side_{branch.args[0]}"
             builder.append_instruction(Statement(name, branch))
             builder.append_instruction(MarkUnused(name))
         kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")

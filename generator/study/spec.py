@@ -218,14 +218,15 @@ class Window:
 class Measure:
     """Represent one number of a run: a statistic of a series, joint or event in a window ("": the whole run).
 
-    `origin`: the scene whose series is subtracted, at the same times and with the same parameters.
+    `measured_name`: the name of the series, joint or event, WHOLE_RUN, or the period of a section. `reference_scene`:
+    the scene whose series is subtracted, at the same times and with the same parameters (key `from`).
     """
 
     name: str
     statistic: str
-    of: Text
+    measured_name: Text
     window: str = ""
-    origin: Text | None = None
+    reference_scene: Text | None = None
 
 
 @dataclass(frozen=True)

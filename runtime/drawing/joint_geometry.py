@@ -97,15 +97,15 @@ def iterate_sliding_joints(configuration: Configuration) -> Iterator[PartInfo]:
     return (part for part in configuration.iterate_parts("joints") if get_joint_type(part).slides)
 
 
-def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
+def find_guide_and_slider(joint: PartInfo) -> tuple[str, str]:
     """Return the names of the guiding point and of the sliding point of a sliding joint.
 
     They are exchanged if the declared slider is the ground and the joint keeps the angle: the ground is then the guide.
     """
-    slides, (first_end, second_end) = get_joint_type(part).slides, part.ends
+    slides, (first_end, second_end) = get_joint_type(joint).slides, joint.ends
     assert slides is not None
     guide, slider = (first_end, second_end) if slides.guide == "first" else (second_end, first_end)
-    is_exchanged = get_joint_type(part).has_fixed_angle and get_body_name(slider) == GROUND
+    is_exchanged = get_joint_type(joint).has_fixed_angle and get_body_name(slider) == GROUND
     return (slider, guide) if is_exchanged else (guide, slider)
 
 

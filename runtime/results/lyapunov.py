@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 TRANSIENT_FRACTION = 0.1  # fraction of the time in which the difference turns to the direction of largest growth
 N_BLOCKS = 10  # blocks of time, from whose means the uncertainty is estimated
-APART = 0.25  # fraction of the clearance (or size, or 1 rad) at which runs disagree, as in simulate(..., horizon=True)
+DISAGREEMENT_DISTANCE = (
+    0.25  # fraction of the clearance (or size, or 1 rad) at which runs disagree, as in simulate(..., horizon=True)
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +106,7 @@ class Lyapunov:
         """Sign of the exponent: 1 if it exceeds two uncertainties, −1 if it is below minus two, 0 if neither."""
         return int(np.sign(self.exponent)) if abs(self.exponent) > 2.0 * self.uncertainty else 0
 
-    def believable(self, error: float = 1e-8, apart: float = APART) -> float:
+    def believable(self, error: float = 1e-8, apart: float = DISAGREEMENT_DISTANCE) -> float:
         """Return the predictability horizon in s, ln(apart/error)/λ: inf where λ ≤ 0, NaN where λ is unknown.
 
         `error` is the error of the run at its start, in the measure of `apart`: fractions of the clearance, or of the

@@ -349,7 +349,11 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 
 
 def _make_acceleration_question(subject: Subject) -> Question:
-    """Build the question for the largest acceleration, preferably angular, of a coordinate that no drive prescribes."""
+    """Build the question for one acceleration at the time of the exercise: the one of largest magnitude.
+
+    Candidates are the angles that no drive prescribes. If these are at rest, they are all coordinates that no drive
+    prescribes, or all if drives prescribe each. The solution shows the rows of Φ_q a = γ and all accelerations.
+    """
     model, exercise, compiled = subject.model, subject.exercise, subject.simulation.compiled
     a, driven = exercise.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
     candidates = [k for k in range(2, len(a), 3) if model.q[k] not in driven]

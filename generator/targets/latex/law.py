@@ -257,7 +257,7 @@ def _derive_equation_variant(
 ) -> EquationVariant:
     """Return a law's equations for one choice, evaluated with symbols for its parameters (`probe_law`).
 
-    Constants that are equal to a parameter are replaced by it.
+    Constants and intermediate quantities that are equal to a parameter are replaced by it.
 
     selected: the choice. options: the values of all options. chosen_names: optional numbers that are specified.
     zero_names: names of equations whose value is zero by default; they are left out while they are zero.
@@ -266,14 +266,18 @@ def _derive_equation_variant(
         law_field.name for law_field in law.parameters if not _is_optional(law_field) or law_field.name in chosen_names
     ]
     probed_law = probe_law(law, options, parameter_names)
-    repeated_constants = {
+    repeated_values = {
         _make_probe_symbol(name): value for name, value in probed_law.derived.items() if value.is_Symbol
+    } | {
+        sp.Symbol(name, real=True): value
+        for name, value in probed_law.equations_by_name.items()
+        if value in map(_make_probe_symbol, parameter_names) and name not in law.results
     }
 
-    def replace_repeated_constants(value: sp.Expr) -> sp.Expr:
+    def replace_repeated_values(value: sp.Expr) -> sp.Expr:
         """Return a value with constants that are equal to a parameter replaced by the parameter, also transitively."""
-        while value.free_symbols & {*repeated_constants}:
-            value = value.xreplace(repeated_constants)
+        while value.free_symbols & {*repeated_values}:
+            value = value.xreplace(repeated_values)
         return value
 
     names = _restore_law_names(
@@ -283,14 +287,14 @@ def _derive_equation_variant(
     )
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {
-        _make_probe_symbol(name): replace_repeated_constants(value)
+        _make_probe_symbol(name): replace_repeated_values(value)
         for name, value in probed_law.derived.items()
-        if _make_probe_symbol(name) not in repeated_constants
+        if _make_probe_symbol(name) not in repeated_values
     }
     equations_by_name = {
-        sp.Symbol(name, real=True): replace_repeated_constants(value)
+        sp.Symbol(name, real=True): replace_repeated_values(value)
         for name, value in probed_law.equations_by_name.items()
-        if value != 0 or name not in zero_names
+        if (value != 0 or name not in zero_names) and sp.Symbol(name, real=True) not in repeated_values
     }
     free_symbols = [value.free_symbols for value in (*constants.values(), *equations_by_name.values())]
     symbols_read = {name for name, value in equations_by_name.items() if value != 0}.union(*free_symbols)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.kinds.laws.dissipation import (
@@ -55,8 +55,6 @@ _EXAMPLES = {
 }
 # Keys of the example of a law with the option `dissipation`: without them, its restitution of 1 has no damping.
 _DISSIPATIVE_EXAMPLE = {"restitution": "0.8", "dissipation": EXACT}
-# Symbol of a key on this page, by law and key: the quantity that the equations have.
-SYMBOLS_OF_KEYS = {"expression.force": r"F_{\text{el}}"}
 # Value of `dissipation`: author and year in its table; the references at the end of the page have the rest.
 _AUTHORS = {
     "hunt_crossley": "Hunt and Crossley (1975)",
@@ -268,8 +266,7 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
         yield from (f"`gudgeon laws {law.name}` defines the symbols of these equations.", "")
     for variant in variants:
         yield from _describe_choice(variant)
-    symbols = {key.split(".")[1]: sign for key, sign in SYMBOLS_OF_KEYS.items() if key.split(".")[0] == law.name}
-    yield from _print_keys_table([field for field in law.fields if field.name not in common_options], symbols)
+    yield from _print_keys_table([field for field in law.fields if field.name not in common_options])
     if shared := [f"`{option.name}`" for option in law.options if option.name in common_options]:
         *first, last = shared
         names = f"{', '.join(first)} and {last}" if first else last
@@ -353,16 +350,14 @@ def _print_latex(equation: Equation) -> str:
     return latex.replace(r"\allowbreak ", "").replace(r"\operatorname{max}", r"\max").replace("{} ", " ")
 
 
-def _print_keys_table(fields: Sequence[Field], symbols: Mapping[str, str]) -> Iterator[str]:
+def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     """Yield the lines of the Markdown table of a law's keys, then an empty line.
 
-    Columns: key, symbol, unit, condition, default, meaning. `symbols`: symbols that replace those of some keys.
+    Columns: key, symbol, unit, condition, default, meaning.
     """
     yield from ("| key | symbol | unit | condition | default | meaning |", "|" + "---|" * 6)
     for parameter in fields:
         cells = _list_number_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
-        if symbol := symbols.get(parameter.name):
-            cells = (f"${symbol}$", *cells[1:])
         yield (
             "| "
             + " | ".join(

@@ -171,9 +171,11 @@ def run_plans(
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
-    """Open the finished study in a folder, with or without parts; its data are read on request.
+    """Open the finished study in a folder; its data are read on request.
 
-    Raises InputError for a folder without a study, or if any part is unfinished or damaged.
+    For a file that lists several studies (parts), a StudyOfParts is returned: one study per part, by name. All parts
+    are checked, and not merged. Raises InputError for a folder without a study, or if any part is unfinished or
+    damaged.
     """
     folder_path = Path(check_path(folder, "folder"))
     if (manifest := read_manifest(folder_path)) is None:
