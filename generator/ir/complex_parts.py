@@ -16,7 +16,7 @@ from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, remove_
 from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Instruction, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.storage import Key, StorageLocation, StorageSymbol, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, StoredSymbol, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 SUFFIX, IMAGINARY = "_complex", "_i"
@@ -178,7 +178,7 @@ class _ComplexConverter:
         """
         name = symbol.name
         if places := self._split_storage_location(find_value_key(symbol)):
-            return StorageSymbol(places[0]), StorageSymbol(places[1])
+            return StoredSymbol(places[0]), StoredSymbol(places[1])
         return (
             (symbol, sp.Symbol(name + IMAGINARY)) if name in self.complex_locals or name in self.complex_keys else None
         )

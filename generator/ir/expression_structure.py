@@ -12,7 +12,7 @@ from itertools import count
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import find_operation_classes
-from gudgeon.generator.symbols.storage import Key, StorageSymbol, find_value_key
+from gudgeon.generator.symbols.storage import Key, StoredSymbol, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 from gudgeon.generator.symbols.unevaluated import Unevaluated, UnevaluatedQuotient
 
@@ -35,7 +35,7 @@ def find_expression_structure(expression: sp.Basic) -> tuple[int, tuple[Key, ...
     number_by_symbol: dict[sp.Basic, int] = {}
     structure = _describe_expression(expression, number_by_symbol)
     symbols = tuple(number_by_symbol)
-    if not all(type(symbol) in (sp.Symbol, StorageSymbol) for symbol in symbols):
+    if not all(type(symbol) in (sp.Symbol, StoredSymbol) for symbol in symbols):
         return None
     order = tuple(sorted(range(len(symbols)), key=lambda k: symbols[k].name))
     number = _number_by_structure.setdefault((structure, order), next(_new_numbers))

@@ -13,7 +13,7 @@ from typing import ClassVar, TypeAlias
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
-from gudgeon.generator.symbols.storage import StorageLocation, StorageSymbol
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.symbols.switches import BranchOf, ComparedMagnitude
 
 Names = frozenset[str]
@@ -26,7 +26,7 @@ def find_read_names(value: sp.Basic) -> Names:
 
     A symbol of a place counts as the argument that contains it. Results are cached.
     """
-    names = frozenset(s.storage_location.base if isinstance(s, StorageSymbol) else s.name for s in find_symbols(value))
+    names = frozenset(s.storage_location.base if isinstance(s, StoredSymbol) else s.name for s in find_symbols(value))
     return names | ({"branch", "g"} if BranchOf in find_operation_classes(value) else NO_NAMES)
 
 

@@ -27,7 +27,7 @@ from gudgeon.generator.ir.statements import Call, Jump, Return, SolveDependentRo
 from gudgeon.generator.ir.values import Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_SINGULAR, RUN_VANISHING, append_friction_mode
-from gudgeon.generator.symbols.storage import StorageLocation, StorageSymbol
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 
 _DOC = (
     "Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from",
@@ -300,21 +300,21 @@ def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[
     `prescribed_forces`: the generalized loads on those coordinates by name.
     """
     model = kkt.system.model
-    multipliers = {r: StorageSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
+    multipliers = {r: StoredSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
     drive_power = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     for prescribed in kkt.system.prescribed:
         effort = (
-            sp.Add(*(m * StorageSymbol(StorageLocation("a")[k]) for k, m in prescribed.mass.items()))
+            sp.Add(*(m * StoredSymbol(StorageLocation("a")[k]) for k, m in prescribed.mass.items()))
             - prescribed.applied
         )
         for r, friction in enumerate(kkt.frictions):
-            force = StorageSymbol(RHS["friction"][r]["force"])
+            force = StoredSymbol(RHS["friction"][r]["force"])
             effort -= model.symbols.differentiate_definitions(friction.slip.v, prescribed.rate) * force
         drive_power += prescribed.rate * (effort - prescribed_forces.get(prescribed.name, ZERO))
     clearances = tuple(RHS["clearance"][i]["power"] for i in range(len(model.clearances)))
     builder.append_store(RHS["power"][0], drive_power)
     friction_symbols = [
-        [StorageSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")]
+        [StoredSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")]
         for r in range(len(kkt.frictions))
     ]
     friction = sp.Add(*(force * (v + speed) for force, v, speed in friction_symbols))

@@ -19,7 +19,7 @@ from gudgeon.generator.kernels.projection import make_projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import TreeEdge
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.symbols.storage import StorageLocation, StorageSymbol
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
@@ -138,7 +138,7 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
             break
         variables = find_differentiation_variables(position)
         terms = [
-            differentiate(position, q) * StorageSymbol(StorageLocation("all_a")[index])
+            differentiate(position, q) * StoredSymbol(StorageLocation("all_a")[index])
             for index, q in enumerate(model.q)
             if q in variables
         ]

@@ -18,7 +18,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.ir.values import Conditional
-from gudgeon.generator.symbols.storage import Key, StorageLocation, StorageSymbol, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, StoredSymbol, find_value_key
 from gudgeon.generator.symbols.switches import BranchOf
 
 FIRST_SWITCH = Argument("corner", Number.INTEGER)
@@ -145,7 +145,7 @@ def _name_parameters(
     }
     for line in _iterate_lines(kernel):
         for expression in line.expressions:
-            read_places = (s.storage_location for s in expression.free_symbols if isinstance(s, StorageSymbol))
+            read_places = (s.storage_location for s in expression.free_symbols if isinstance(s, StoredSymbol))
             place_of_key |= {place: place for place in read_places if place.is_parameter}
     name_of_place = {field: parameter_names.get(field, field.member) for field in place_of_key.values()}
     order = [

@@ -66,15 +66,15 @@ def make_real_symbol(name: str) -> sp.Symbol:
     return sp.Symbol(name, real=True)
 
 
-class StorageSymbol(sp.Symbol):
+class StoredSymbol(sp.Symbol):
     """A symbol that is read from a storage location; SymPy orders it like a plain symbol of that name."""
 
     storage_location: StorageLocation
     __slots__ = ("storage_location",)
 
-    def __new__(cls, storage_location: StorageLocation) -> StorageSymbol:
+    def __new__(cls, storage_location: StorageLocation) -> StoredSymbol:
         """Return the real symbol whose value is read from a storage location; its name is the text of the location."""
-        symbol: StorageSymbol = sp.Symbol.__xnew__(cls, str(storage_location), real=True)
+        symbol: StoredSymbol = sp.Symbol.__xnew__(cls, str(storage_location), real=True)
         symbol.storage_location = storage_location
         return symbol
 
@@ -92,8 +92,8 @@ Key: TypeAlias = str | StorageLocation  # identifies a value: the name of a loca
 
 
 def find_value_key(symbol: sp.Symbol) -> Key:
-    """Return the storage location of a symbol that is read from one (a StorageSymbol), else the symbol's name."""
-    return symbol.storage_location if isinstance(symbol, StorageSymbol) else str(symbol.name)
+    """Return the storage location of a symbol that is read from one (a StoredSymbol), else the symbol's name."""
+    return symbol.storage_location if isinstance(symbol, StoredSymbol) else str(symbol.name)
 
 
 _READ_ONLY_TYPES: dict[type, Any] = {dict: MappingProxyType, list: tuple, set: frozenset}

@@ -22,7 +22,7 @@ from gudgeon.generator.symbols.storage import (
     Freezable,
     Key,
     StorageLocation,
-    StorageSymbol,
+    StoredSymbol,
     make_real_symbol,
 )
 from gudgeon.generator.symbols.switches import Switches
@@ -260,9 +260,9 @@ class Symbols(Freezable):
         return result
 
     def read_from_storage_locations(self, value: sp.Expr) -> sp.Expr:
-        """Return the value with each symbol that has a storage location replaced by its `StorageSymbol`."""
+        """Return the value with each symbol that has a storage location replaced by its `StoredSymbol`."""
         places = ((s, self.info[s].storage_location) for s in value.free_symbols if s in self.info)
-        return value.xreplace({s: StorageSymbol(place) for s, place in places if place})
+        return value.xreplace({s: StoredSymbol(place) for s, place in places if place})
 
     def expand_definitions(self, expression: sp.Expr) -> sp.Expr:
         """Return `expression` with every derived symbol replaced by its definition, repeatedly, until none is left."""

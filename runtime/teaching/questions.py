@@ -349,10 +349,9 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 
 
 def _make_acceleration_question(subject: Subject) -> Question:
-    """Build the question for one acceleration at the time of the exercise: the one of largest magnitude.
+    """Build the question for the largest acceleration at the time of the exercise: of an angle without a drive.
 
-    Candidates are the angles that no drive prescribes. If these are at rest, they are all coordinates that no drive
-    prescribes, or all if drives prescribe each. The solution shows the rows of Φ_q a = γ and all accelerations.
+    If these angles are at rest, it is any coordinate without a drive, or any. The solution shows Φ_q a = γ by rows.
     """
     model, exercise, compiled = subject.model, subject.exercise, subject.simulation.compiled
     a, driven = exercise.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
@@ -390,8 +389,7 @@ def _make_acceleration_question(subject: Subject) -> Question:
         *_tabulate_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
         subject.make_value_equation(symbol_names[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
-    coordinate = subject.simulation.source.coordinates[k]
-    return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
+    return Question("Accelerations", tuple(requested), tuple(solved), {compiled.source.coordinates[k]: float(a[k])})
 
 
 def _format_omission(n_rows: int) -> str:

@@ -13,7 +13,7 @@ from gudgeon.generator.ir.signatures import Number, make_input_argument, make_ou
 from gudgeon.generator.ir.split import order_statements_near_readers
 from gudgeon.generator.ir.statements import Call, Declare, Instruction, Statement
 from gudgeon.generator.pipeline import generate_kernel_source
-from gudgeon.generator.symbols.storage import StorageLocation, StorageSymbol
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import find_shipped_file
@@ -110,7 +110,7 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     shorten(monkeypatch)
     a, b = (
         [sp.Symbol(f"a{k}", real=True) for k in range(40)],
-        [StorageSymbol(StorageLocation("b")[k]) for k in range(2)],
+        [StoredSymbol(StorageLocation("b")[k]) for k in range(2)],
     )
     first = Statement("a0", StorageLocation("x")[0])
     front: tuple[Instruction, ...] = (Declare(Number.INTEGER, "b", (2,)), Call("fill", (), (StorageLocation("b"),)))
@@ -122,7 +122,7 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     # every statement but the first reads b, which only the call knows: nothing may move
     assert parts.split_kernel(kernel) == (kernel,)
     front = (Declare(Number.REAL, "c", (2,)), Call("fill", (), (StorageLocation("c"),)))
-    c = [StorageSymbol(StorageLocation("c")[k]) for k in range(2)]
+    c = [StoredSymbol(StorageLocation("c")[k]) for k in range(2)]
     free = [first, *(Statement(f"a{k}", a[k - 1] * (k + 1) + c[k % 2]) for k in range(1, 40))]
     *pieces, main = parts.split_kernel(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
