@@ -135,8 +135,9 @@ static void expand_dense_output(const Integrator *run, const Step *step, DensePo
 }
 
 /*
- * Compute bounds y (2 N_X) of coordinates and velocities, and of their slopes, over the fractions `begin` to `end` of a
- * step. The polynomial is shifted to the middle of the part, and each power is bounded by itself.
+ * Compute bounds y (2 N_X) of coordinates and velocities, and of their derivatives with respect to the fraction s of
+ * the step, over the fractions `begin` to `end` of a step. The polynomial is shifted to the middle of the part, and
+ * each power is bounded by itself.
  */
 static void bound_state(const DensePolynomial *polynomial, double begin, double end, Interval *y)
 {
@@ -160,8 +161,9 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
 
 #endif
 /*
- * Compute bounds (N_MONITORED) of all monitored event functions from bounds of time t and of the state y. Each is
- * multiplied by the frozen branch of its switching function, or by the stored sign of its user event.
+ * Compute bounds (N_MONITORED) of all monitored event functions, and of their derivatives with respect to the fraction
+ * s of the step, from such bounds of time t and of the state y. Each is multiplied by the frozen branch of its
+ * switching function, or by the stored sign of its user event.
  */
 static void bound_event_functions_over_box(const Integrator *run, Interval t, const Interval *y, const Parameters *p,
     Interval *bounds)

@@ -351,7 +351,7 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 def _make_acceleration_question(subject: Subject) -> Question:
     """Build the question for the largest acceleration at the time of the exercise: of an angle without a drive.
 
-    If these angles are at rest, it is any coordinate without a drive, or any. The solution shows Φ_q a = γ by rows.
+    If these angles are at rest, of any coordinate without a drive, or of any. The solution shows Φ_q a = γ by rows.
     """
     model, exercise, compiled = subject.model, subject.exercise, subject.simulation.compiled
     a, driven = exercise.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
