@@ -123,8 +123,8 @@ def measure_batch(simulation: Simulation, name: str, default: float) -> list[flo
 
 
 def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> list[float]:
-    """Return the times of simulate with known and with new values, of a run of a batch and beyond C in it, of a
-    prepared run and of C in it, and of a step and of C in it, in µs.
+    """Return the times of simulate with known values and beyond C in it, of simulate with new values, of a run of a
+    batch and beyond C in it, of a prepared run and of C in it, and of a step and of C in it, in µs.
     """
     address = name if name in simulation.source.parameter_indices else f"parameters.{name}"
     default = simulation.source.parameters[simulation.source.parameter_indices[address]].default
@@ -139,7 +139,10 @@ def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> 
     def simulate_new() -> object:
         return simulate(np.array([default * (1.0 + 1e-9 * next(numbers))]))
 
-    times = [measure(take_turns(simulate, values), CALLS_OF_SIMULATE), measure(simulate_new, CALLS_OF_SIMULATE)]
+    known = take_turns(simulate, values)
+    times = [measure(known, CALLS_OF_SIMULATE)]
+    times.append(times[0] - measure_in_c(simulation, known, CALLS_OF_SIMULATE))
+    times.append(measure(simulate_new, CALLS_OF_SIMULATE))
     times += measure_batch(simulation, name, default)
     assert prepared._run and stepper._run
     times += [measure(take_turns(prepared, values), CALLS), measure_integration(prepared._run, (0, 1))]
@@ -152,13 +155,13 @@ def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> 
 
 def main() -> None:
     """Print a row for each scene."""
-    print(f"{'µs':34}{'simulate':>9}{'new':>7}{'many':>8}{'beyond':>7}", end="")
+    print(f"{'µs':34}{'simulate':>9}{'beyond':>7}{'new':>7}{'many':>8}{'beyond':>7}", end="")
     print(f"{'prepared':>9}{'in C':>7}{'beyond':>7}{'step':>8}{'in C':>7}{'beyond':>7}")
     for mechanism, scene, name, series, dt in SCENES:
         simulation = gudgeon.load(mechanism, scene, quick=False)
-        whole, new, run, run_beyond, call, in_c, step, step_in_c = measure_scene(simulation, name, series, dt)
+        whole, beyond, new, run, run_beyond, call, in_c, step, step_in_c = measure_scene(simulation, name, series, dt)
         title = f"{mechanism}/{scene}, {name.removeprefix('bodies.')}"
-        print(f"{title:34}{whole:9.1f}{new:7.1f}{run:8.1f}{run_beyond:7.1f}", end="")
+        print(f"{title:34}{whole:9.1f}{beyond:7.1f}{new:7.1f}{run:8.1f}{run_beyond:7.1f}", end="")
         print(f"{call:9.1f}{in_c:7.1f}{call - in_c:7.1f}{step:8.1f}{step_in_c:7.1f}{step - step_in_c:7.1f}")
 
 

@@ -33,37 +33,31 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
 LEAD = """# Notation
 
 This page lists each symbol of [physics](physics.md) with its sign convention, its unit and its names in the paper,
-YAML, Python and C. Use it to find the variable of the generated C that belongs to a symbol of an equation. To find the
-symbol of a name in C, use [the index](#index-of-names-in-c). Names `p->…` are not in the index: they are parameters
-and constants, and `model.h` gives the key or the meaning of each in a comment. "The paper" is Chen, Gao and
-Wang (2022).
+YAML, Python and C. "The paper" is Chen, Gao and Wang (2022).
+
+| you have | go to |
+| --- | --- |
+| a symbol of an equation | the table of its subject below |
+| a name in C | [the index](#index-of-names-in-c) |
+| a name `p->…` in C | the comment of that name in `model.h` |
+| a name in C that differs from its term | [the table of these names](#names-in-c-that-differ-from-the-term) |
+| an intermediate or general symbol | [other symbols](#other-symbols-of-the-equations) |
+| a symbol that is not here | the page that uses it, such as [algorithms](algorithms.md) |
 
 Example of a row: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
 `rhs->clearance[i]` in C. The slip velocity is positive if the journal's surface moves along $\\mathbf t$
 relative to the bearing's. Every other row is read in the same way.
 
-Conventions:
-
-- On this page, a symbol stands for one quantity, except $K$, $S$, $v_0$, $c$, $c_e$ and $c_f$, which each force law or
-  joint type defines.
-- Further symbols are defined where they are used: [algorithms](algorithms.md),
-  [error control](error_control.md), [predictability](predictability.md) and
-  [runs and results](runs_and_results.md).
-- Bold letters are vectors.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
 - The sign – in a column marks a quantity that has no name there.
-- Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
-- Variables have the sign of their quantity. Two variables have the opposite sign: `rhs->clearance[i].F_n` in C and the
-  attribute `F_n` of `equations.dynamics` are $-F_n$. The local variable `F_n` of the functions of a joint is $F_n$
-  without a contour, and $F_\\delta$ with a contour.
-- Some names in C differ from the term of their quantity: see
-  [the table of these names](#names-in-c-that-differ-from-the-term).
-
-[Other symbols of the equations](#other-symbols-of-the-equations) are intermediate and general quantities.
-
-`make tables` writes this page from the declarations in the code. A test compares the page with the symbols of
-[physics](physics.md).
+- Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number. Bold letters are vectors.
+- A symbol stands for one quantity, except $K$, $S$, $v_0$, $c$, $c_e$ and $c_f$, which each force law or joint type
+  defines.
 """
+MADE_BY = (
+    "`make tables` writes this page from the declarations in the code. A test compares the page with the symbols of\n"
+    "[physics](physics.md)."
+)
 NONE = "–"
 UNIT_OF_COEFFICIENT = "N/m$^n$"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
@@ -407,6 +401,10 @@ def make_notation_page() -> str:
         'In Python, `run["JOINT.delta"]` returns a series. In C, the structure `rhs->clearance[i]` contains the',
         "quantities of the first table below. Quantities of the second table are local variables in C.",
         "",
+        "Two variables have the opposite sign of their quantity: `rhs->clearance[i].F_n` in C and the attribute `F_n`",
+        "of `equations.dynamics` are $-F_n$. The local variable `F_n` of the functions of a joint is $F_n$ without a",
+        "contour, and $F_\\delta$ with a contour.",
+        "",
     ]
     lines += _format_table(head, _iterate_play_rows())
     lines += [
@@ -476,7 +474,7 @@ def make_notation_page() -> str:
     other_rows = ((f"${symbols}$", *rest) for symbols, *rest in OTHER_SYMBOLS)
     lines += _format_table(("symbol", "quantity", "unit", "section of physics"), other_rows)
     lines += ["", "## Index of names in C", "", *_format_table(("name in C", "symbol", "section"), _index_names(lines))]
-    page = "\n".join([*lines, ""])
+    page = "\n".join([*lines, "", MADE_BY, ""])
     if ambiguous := find_ambiguous_symbols(page):
         raise ValueError("docs/notation.md: symbols with two meanings: " + "; ".join(ambiguous))
     return page

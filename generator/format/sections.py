@@ -288,7 +288,7 @@ CONTACT = record(
     _make_law_field("friction", "law of dry friction"),
     _make_law_field("film", "law of the oil film"),
     _make_law_field(
-        "mixed", "law of mixed lubrication: fractions of the load of film and dry contact; instead of `transition`"
+        "mixed", "law of mixed lubrication: weights of the film force and the dry force; instead of `transition`"
     ),
     number(
         "transition",

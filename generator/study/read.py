@@ -28,6 +28,7 @@ from gudgeon.generator.study.settings import apply_set_options, build_tree, conv
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
+    DEPRECATED_STATISTICS,
     DEVIATIONS,
     FORMAT,
     NEIGHBOUR_STATISTICS,
@@ -43,6 +44,7 @@ from gudgeon.generator.study.spec import (
     Window,
 )
 from gudgeon.generator.yaml import Map, Text, describe_node, parse_yaml
+from gudgeon.language.deprecations import warn_deprecated
 from gudgeon.language.names import make_unknown_name_error
 
 _SET = "value of "  # prefix of locations of values from the command line
@@ -424,16 +426,20 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
 
     `root` is the part's tree, whose windows may contain errors.
     """
-    address, known_keys = f"measures.{name}", (*STATISTICS, "window", "from")
+    address, known_keys = f"measures.{name}", (*STATISTICS, *DEPRECATED_STATISTICS, "window", "from")
     if unknown_keys := [key for key in node.list_keys() if key not in known_keys]:
         raise make_unknown_key_error(unknown_keys[0], known_keys, address)
-    selected = [key for key in node.list_keys() if key in STATISTICS]
+    selected = [key for key in node.list_keys() if key in (*STATISTICS, *DEPRECATED_STATISTICS)]
     if len(selected) != 1:
         message = f"{address} has {'no statistic' if not selected else f'both {selected[0]} and {selected[1]}'}"
         raise BadValueError(message, name.where, f"expected one of: {', '.join(STATISTICS)}")
     (statistic,) = selected
     expected_text = "the name of a series, a joint or an event, or a section"
     source_name = check_text_node(node[statistic], f"{address}.{statistic}", statistic, expected_text)
+    if statistic in DEPRECATED_STATISTICS:
+        new_name, deprecation = DEPRECATED_STATISTICS[statistic]
+        warn_deprecated(deprecation)
+        statistic = Text.make_text(new_name, statistic.where)
     window = ""
     if "window" in node:
         window_name = check_text_node(

@@ -13,6 +13,7 @@ from gudgeon.generator.study.parts import MAX_COUNT, MAX_ROUNDS, MAX_SEED, MAX_T
 from gudgeon.generator.study.read import MAX_TITLE, SERIES_STATISTICS, WINDOW_STATISTICS
 from gudgeon.generator.study.spec import (
     COUNTED_PARTS,
+    DEPRECATED_STATISTICS,
     DEVIATIONS,
     FORMAT,
     GEOMETRIC,
@@ -183,11 +184,11 @@ def _make_claims_schema() -> Json:
 def _make_measure_schema() -> Json:
     """Return the schema of a measure: one statistic, with a window or another scene where the statistic allows it."""
     alternatives = []
-    for name in STATISTICS:
+    for name in (*STATISTICS, *DEPRECATED_STATISTICS):
         properties = {name: _TEXT} | {
             key: _TEXT
             for key, statistics in (("window", WINDOW_STATISTICS), ("from", SERIES_STATISTICS))
-            if name in statistics
+            if DEPRECATED_STATISTICS.get(name, (name,))[0] in statistics
         }
         alternatives.append(_make_object_schema(properties, name, *(["from"] if name in DEVIATIONS else [])))
     return {"oneOf": alternatives}

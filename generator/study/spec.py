@@ -11,6 +11,7 @@ from typing import Any
 
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.yaml import Text
+from gudgeon.language.deprecations import BELIEVABLE_MEASURE
 from gudgeon.language.tree import Expr
 
 TRENDS_ALONG_DIMENSION = ("grows_along", "alike_along", "spreads_along")  # kinds of statements along a dimension
@@ -107,10 +108,11 @@ NEIGHBOUR_STATISTICS = (
     "lyapunov",
     "lyapunov_error",
     "lyapunov_per_return",
-    "believable",
+    "mean_horizon",
     "motion",
     "motion_confidence",
 )  # statistics of a neighbouring run, or of the returns to a section, in a window
+DEPRECATED_STATISTICS = {"believable": ("mean_horizon", BELIEVABLE_MEASURE)}  # old name: new name, deprecation
 STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS, *NEIGHBOUR_STATISTICS)
 RESERVED = (
     "run",

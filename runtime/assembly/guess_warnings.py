@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Mapping, Sequence
 from contextvars import ContextVar
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.language.deprecations import find_user_stack_level
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 
@@ -103,14 +103,6 @@ def warn_guess_deviations_in_runs(source: KernelSource, guess_deviations: Sequen
     if message:
         text = f"starts deviate from their guess: {', '.join(message)}: {describe_missing_assembly(source)}; {LISTED}"
         warnings.warn(text, stacklevel=find_user_stack_level())
-
-
-def find_user_stack_level() -> int:
-    """Return the stack level of the first caller outside gudgeon, as `warnings.warn` counts it."""
-    level, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":
-        level, frame = level + 1, frame.f_back
-    return level
 
 
 def format_guess_difference(name: str, difference: float) -> str:

@@ -99,6 +99,7 @@ def print_warnings_once() -> None:
             print(f"warning: {escape_invisible(message)}", file=sys.stderr)
 
     warnings.showwarning = print_once
+    warnings.filterwarnings("default", ".* is deprecated since gudgeon", DeprecationWarning)
 
 
 @dataclass

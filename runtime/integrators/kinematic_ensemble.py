@@ -37,6 +37,18 @@ def has_kinematic_ensemble(source: KernelSource, method: str) -> bool:
     return method == "kinematic" and not source.events
 
 
+def is_short_kinematic_run(problem: Problem) -> bool:
+    """Return whether C may compute a single run in one call, without polls for cancellation.
+
+    It is kinematic, and has at most MAX_SHORT_RUN_SAMPLES samples, no user events, observer or report of progress.
+    """
+    return (
+        has_kinematic_ensemble(problem.compiled.source, problem.method)
+        and len(problem.t) <= MAX_SHORT_RUN_SAMPLES
+        and not (problem.observer or problem.progress)
+    )
+
+
 def count_runs_per_kinematic_call(n_samples: int) -> int:
     """Return how many runs of `n_samples` samples one call of C computes, so that they fit into the CPU cache.
 
@@ -132,18 +144,15 @@ class KinematicEnsemble:
         indices_pointer = self.compiled.pointer(run_indices, "long *")
         self.compiled.lib.gudgeon_kinematic_ensemble(struct, storage, len(run_indices), indices_pointer)
 
-    def compute_short_run(self, problem: Problem) -> bool:
-        """Compute the only run of the batch and return whether it is complete.
+    def compute_short_run(self, n_samples: int) -> bool:
+        """Compute the only run (is_short_kinematic_run) of the batch and return whether it has all its `n_samples`.
 
-        Nothing is computed, and False returned, for more than MAX_SHORT_RUN_SAMPLES samples, an observer or a report of
-        progress. Return False too if C cannot complete the run within 0.02 s. KinematicRun then computes it, with polls
-        for cancellation.
+        Return False if C cannot complete the run within 0.02 s. KinematicRun then computes it, with polls for
+        cancellation.
         """
-        if len(problem.t) > MAX_SHORT_RUN_SAMPLES or problem.observer or problem.progress:
-            return False
         self._struct.must_be_short = 1
         self.compute_runs([0], self.allocate_storages())
-        is_complete = bool(self._arrays["done"][0] == len(problem.t) and not self._arrays["status"][0])
+        is_complete = bool(self._arrays["done"][0] == n_samples and not self._arrays["status"][0])
         if not is_complete:
             self._arrays["status"][0], self._arrays["done"][0] = 0, 0
         return is_complete

@@ -15,6 +15,7 @@ import numpy as np
 from gudgeon.contract.boundary import BEGUN, BUFFERS_FULL, ENDED, RUN_ENDED
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.batch import PythonLoop, Runs
+from gudgeon.integrators.kinematic_ensemble import is_short_kinematic_run
 from gudgeon.integrators.run_arrays import SingleRunArrays
 from gudgeon.integrators.steps import StepLog
 from gudgeon.integrators.stored import Contacts
@@ -102,8 +103,8 @@ class SingleRun(Runs):
         """
         if not self.python_loop:
             self._integrate_in_c()
-        elif not (self.kinematic and self.kinematic.compute_short_run(problem)):
-            self.store_trajectory(0, self.python_loop(problem))
+        elif not (self.kinematic and self.kinematic.compute_short_run(len(problem.t))):
+            return self.python_loop(problem)
         self._join_contacts()
         return self.build_trajectory(0)
 
@@ -178,9 +179,12 @@ class SingleRun(Runs):
 def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -> Trajectory:
     """Integrate one run, in C or by the time loop `python_loop` in Python, and return its Trajectory.
 
-    Runs in C with at most MAX_REUSED_SAMPLES samples and no observer reuse the arrays of earlier runs. Ctrl-C ends the
+    Runs in C with at most MAX_REUSED_SAMPLES samples and no observer reuse the arrays of earlier runs. A time loop in
+    Python stores its samples itself; only a short kinematic run, which C computes, needs arrays here. Ctrl-C ends the
     run where it is. Raises KeyboardInterrupt if no sample was reached.
     """
+    if python_loop and not is_short_kinematic_run(problem):
+        return python_loop(problem)
     if python_loop or len(problem.t) > MAX_REUSED_SAMPLES or problem.observer:
         return SingleRun(problem, python_loop).integrate(problem)
     free = _get_reusable_runs(problem)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from dataclasses import dataclass
 
@@ -25,9 +26,22 @@ class Deprecation:
 
 
 STRESS = Deprecation("gudgeon stress", "0.1.0", "2026-11-26", "gudgeon map", "0.3.0")
-DEPRECATIONS = (STRESS,)
+TWIN = Deprecation('by="twin"', "0.1.0", "2026-11-30", 'by="two_trajectory"', "0.3.0")
+BELIEVABLE = Deprecation("Lyapunov.believable", "0.1.0", "2026-11-30", "Lyapunov.mean_horizon", "0.3.0")
+MERGED = Deprecation("Lyapunov.merged", "0.1.0", "2026-11-30", "Lyapunov.coincidences", "0.3.0")
+BELIEVABLE_MEASURE = Deprecation("the statistic believable", "0.1.0", "2026-11-30", "mean_horizon", "0.3.0")
+CARRIED = Deprecation("gudgeon.web.page.carried", "0.1.0", "2026-11-30", "gudgeon.web.page.embed_scene", "0.3.0")
+DEPRECATIONS = (STRESS, TWIN, BELIEVABLE, MERGED, BELIEVABLE_MEASURE, CARRIED)
 
 
 def warn_deprecated(deprecation: Deprecation) -> None:
-    """Issue a DeprecationWarning that points to the line from which the caller of this function was called."""
-    warnings.warn(str(deprecation), DeprecationWarning, stacklevel=3)
+    """Issue a DeprecationWarning that points to the line of the user's code that called gudgeon."""
+    warnings.warn(str(deprecation), DeprecationWarning, stacklevel=find_user_stack_level())
+
+
+def find_user_stack_level() -> int:
+    """Return the stack level of the first caller outside gudgeon, as `warnings.warn` counts it."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":
+        level, frame = level + 1, frame.f_back
+    return level

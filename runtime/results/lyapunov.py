@@ -16,6 +16,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_positive
+from gudgeon.language.deprecations import BELIEVABLE, MERGED, warn_deprecated
 from gudgeon.results.motion import Motion, classify_motion
 
 if TYPE_CHECKING:
@@ -23,9 +24,7 @@ if TYPE_CHECKING:
 
 TRANSIENT_FRACTION = 0.1  # fraction of the time in which the difference turns to the direction of largest growth
 N_BLOCKS = 10  # blocks of time, from whose means the uncertainty is estimated
-DISAGREEMENT_DISTANCE = (
-    0.25  # fraction of the clearance (or size, or 1 rad) at which runs disagree, as in simulate(..., horizon=True)
-)
+AGREEMENT_LIMIT = 0.25  # fraction of the clearance (or size, or 1 rad) at which runs disagree, as in horizon=True
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,15 +44,15 @@ class Lyapunov:
 
     The uncertainty is one standard error, from the slopes in ten blocks of time and the time discretization of the
     tangent map.
-    `believable` returns the predictability horizon.
+    `mean_horizon` returns the mean predictability horizon.
     """
 
-    by: str  # "tangent" or "twin"
-    why: str  # why the tangent was not used; "" where it was, or where "twin" was requested
+    by: str  # "tangent" or "two_trajectory"
+    why: str  # why the tangent was not used; "" where it was, or where "two_trajectory" was requested
     t: Array  # (k + 1,) s: begin, and the end of each interval
     growth: Array  # (k,) ln of the growth of the difference in each interval
     unresolved: float  # 1/s: change of the tangent's growth rate with the last halving of its step
-    merged: int  # times at which both trajectories merged, as in stick; λ is then an upper bound
+    coincidences: int  # times at which both trajectories became equal, as in stick; λ is then an upper bound
     transverse: bool  # whether differences along the motion were removed, as for a section at an event
     section: Section | None
     final: State = field(repr=False)  # to resume from
@@ -106,20 +105,31 @@ class Lyapunov:
         """Sign of the exponent: 1 if it exceeds two uncertainties, −1 if it is below minus two, 0 if neither."""
         return int(np.sign(self.exponent)) if abs(self.exponent) > 2.0 * self.uncertainty else 0
 
-    def believable(self, error: float = 1e-8, apart: float = DISAGREEMENT_DISTANCE) -> float:
-        """Return the predictability horizon in s, ln(apart/error)/λ: inf where λ ≤ 0, NaN where λ is unknown.
+    def mean_horizon(self, error: float = 1e-8, limit: float = AGREEMENT_LIMIT) -> float:
+        """Return the mean predictability horizon in s, ln(limit/error)/λ: inf where λ ≤ 0, NaN where λ is unknown.
 
-        `error` is the error of the run at its start, in the measure of `apart`: fractions of the clearance, or of the
-        mechanism's size or 1 rad. Raises BadValueError unless both are positive and `error` is smaller. `simulate(...,
-        horizon=True)` repeats a run instead: its horizon is that of one run and depends on its first contacts; this one
-        is a mean over all runs.
+        `error` is the error of the run at its start, `limit` the distance at which runs disagree: fractions of the
+        clearance, or of the mechanism's size or 1 rad. Raises BadValueError unless both are positive and `error` is
+        smaller. `simulate(..., horizon=True)` repeats a run instead: its horizon is that of one run and depends on its
+        first contacts; this one is a mean over all runs.
         """
-        error, apart = check_positive(error, "error"), check_positive(apart, "apart")
-        if error >= apart:
-            raise BadValueError(f"error: {error:g}: expected less than apart, {apart:g}")
+        error, limit = check_positive(error, "error"), check_positive(limit, "limit")
+        if error >= limit:
+            raise BadValueError(f"error: {error:g}: expected less than limit, {limit:g}")
         if not math.isfinite(self.exponent):
             return math.nan
-        return math.log(apart / error) / self.exponent if self.exponent > 0.0 else math.inf
+        return math.log(limit / error) / self.exponent if self.exponent > 0.0 else math.inf
+
+    def believable(self, error: float = 1e-8, apart: float = AGREEMENT_LIMIT) -> float:
+        """Return `mean_horizon(error, limit=apart)`. Deprecated, see the changes."""
+        warn_deprecated(BELIEVABLE)
+        return self.mean_horizon(error, apart)
+
+    @property
+    def merged(self) -> int:
+        """The number `coincidences`. Deprecated, see the changes."""
+        warn_deprecated(MERGED)
+        return self.coincidences
 
     @cached_property
     def motion(self) -> Motion:
@@ -159,8 +169,8 @@ class Lyapunov:
         text = f"{self.exponent:.4g} ± {self.uncertainty:.2g} 1/s"
         if self.section is not None:
             text += f", {self.per_return:.4g} ± {self.per_return_uncertainty:.2g} a return ({self.section.name})"
-        text += f", at most: merged {self.merged} times" if self.merged else ""
-        return f"<Lyapunov {text}, by the {self.by}, {self.t[0]:g} … {self.t[-1]:g} s>"
+        text += f", at most: {self.coincidences} coincidences" if self.coincidences else ""
+        return f"<Lyapunov {text}, by the {self.by.replace('_', '-')} method, {self.t[0]:g} … {self.t[-1]:g} s>"
 
 
 def _compute_regression_slopes(x: Array, growth_logs: Array) -> Array:

@@ -24,6 +24,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.adaptive import parse_tolerance
 from gudgeon.language.argument_checks import check_text, raise_bad_value
+from gudgeon.language.deprecations import TWIN, warn_deprecated
 from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import iterate_names, list_functions
 from gudgeon.model.compiled import Array
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-METHODS = ("auto", "tangent", "twin")  # methods for the growth of differences
+METHODS = ("auto", "tangent", "two_trajectory")  # methods for the growth of differences
 RTOL = 1e-12  # default tolerance of the runs: far below the distance of neighbours
 # largest tolerance of a second run: if the steps of both runs differ, the runs differ by the error of a step
 MAX_RTOL_OF_SECOND_RUN = 1e-10
@@ -123,12 +124,12 @@ def compute_lyapunov_exponent(
         log_growths.append(log_growth)
         returns.append_run(run)
     return Lyapunov(
-        "tangent" if reason is None else "twin",
+        "tangent" if reason is None else "two_trajectory",
         reason or "",
         np.array(t),
         np.array(log_growths),
         neighbour.growth_error / (t[-1] - t[0]),
-        neighbour.n_merged,
+        neighbour.n_coincidences,
         transverse,
         returns.build_section(),
         neighbour.state,
@@ -207,11 +208,14 @@ def _find_reason_for_second_run(source: KernelSource, method: str) -> str | None
     `method`: argument `by` of Simulation.lyapunov. Raises BadValueError for an unknown one, and for "tangent" where the
     Jacobian does not suffice.
     """
+    if method == "twin":
+        warn_deprecated(TWIN)
+        method = "two_trajectory"
     if method not in METHODS:
         raise_bad_value("by", method, f"one of {', '.join(METHODS)}")
     reason = explain_invalid_variational_equation(source)
     if method == "tangent" and reason:
-        raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="twin" uses a second run')
+        raise BadValueError(f"no exponent by the tangent: {reason}", hint='by="two_trajectory" uses a second run')
     reason = reason or (explain_slow_variational_equation(source) if method == "auto" else "")
     return None if method == "tangent" or (method == "auto" and not reason) else reason
 

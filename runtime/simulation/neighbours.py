@@ -32,7 +32,7 @@ INITIAL_DISTANCE = 1e-6  # initial distance of neighbours: far above integration
 MAX_CHANGE_AT_REST = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
 SEED = 1  # random seed of the first difference
 MAX_GROWTH = 1e3  # times INITIAL_DISTANCE: if the distance is larger, the interval is repeated with half its length
-# times INITIAL_DISTANCE: closer runs count as merged, as where friction sticks; a new neighbour is drawn
+# times INITIAL_DISTANCE: closer runs count as equal, as where friction sticks; a new neighbour is drawn
 MERGED_DISTANCE = 1e-8
 
 
@@ -138,12 +138,12 @@ class SecondRun:
     state: State
     transverse: bool
     growth_error: float = 0.0
-    n_merged: int = 0  # number of times that both runs became one
+    n_coincidences: int = 0  # number of times that both runs became one
 
     def __post_init__(self) -> None:
         """Draw a neighbour of the current state; store it in `neighbour_state`, and its distance in `distance`.
 
-        Called again after both runs have merged.
+        Called again after both runs have become equal.
         """
         first = self.norm.draw_neighbour(self.state.t, flatten_state(self.state))
         self.neighbour_state = _replace_state_vector(self.state, first, self.state.memory.copy())
@@ -172,7 +172,7 @@ class SecondRun:
         distance = self.norm.compute_norm(difference)
         if distance <= MERGED_DISTANCE * INITIAL_DISTANCE:
             log_growth = math.log(MERGED_DISTANCE * INITIAL_DISTANCE / self.distance)
-            self.state, self.n_merged = run.final, self.n_merged + 1
+            self.state, self.n_coincidences = run.final, self.n_coincidences + 1
             self.__post_init__()
             return run, log_growth
         is_too_far = (

@@ -12,7 +12,7 @@ first interval, which begins at the start, depends on t_end (MIN_INTERVAL). If t
 that t_end cuts off, that whole interval is compared again.
 
 The horizon belongs to the run, not to the scene: each digit of tolerance extends it, until rounding dominates. With
-the Lyapunov exponent λ, its mean over all runs is ln(max_difference/error)/λ: Lyapunov.believable.
+the Lyapunov exponent λ, its mean over all runs is ln(max_difference/error)/λ: Lyapunov.mean_horizon.
 """
 
 from __future__ import annotations

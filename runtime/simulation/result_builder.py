@@ -179,7 +179,8 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
     """
     if compiled.source.methods != ("kinematic",) or not len(trajectory.t) or trajectory.a is None:
         return
-    largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
+    largest = np.maximum(trajectory.a.max(axis=1), -trajectory.a.min(axis=1))  # |q̈|, without arrays of its size
+    largest[np.isnan(largest)] = math.inf
     t = float(trajectory.t[largest.argmax()])
     if largest.max() > 100.0 * np.median(largest) and (drive := find_unbounded_drive(compiled, problem.p, t)):
         yield (

@@ -430,8 +430,9 @@ class Simulation(NotebookDisplay, RepeatedRuns):
 
         `t_end`: also a Result of this simulation; the exponent is then that of its motion from the first to the last
         sample, with its parameters.
-        `by`: "tangent" integrates the variational equation with the exact Jacobian and a jump at each contact; "twin"
-        a second trajectory whose distance is rescaled at intervals; "auto": "tangent" if it holds for all neighbours.
+        `by`: "tangent" integrates the variational equation with the exact Jacobian and a jump at each contact;
+        "two_trajectory" a second trajectory whose distance is rescaled at intervals; "auto": "tangent" if it holds for
+        all neighbours.
         `section`: an event of the file, or a period (s, '2*pi/omega'), for the exponent per return and the kind of
         motion, `motion` of the result. If no drive and no force depends on t, perturbations along the trajectory are
         then removed. `skip`: duration (s) of the transient that is not evaluated. A tenth of the rest is not evaluated

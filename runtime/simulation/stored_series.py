@@ -149,8 +149,25 @@ def build_samples(runs: Runs, i: int, field_names: frozenset[str]) -> EvaluatedS
     result = make_evaluated_samples(
         source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], discrete_states, state, field_names
     )
-    result.accelerations = runs.get_accelerations(i)
+    result.accelerations = _get_accelerations(runs, i)
     return result
+
+
+def _get_accelerations(runs: Runs, i: int) -> Array | None:
+    """Return q̈ (k, n) at the samples of run i if its method stored it; else None.
+
+    Where accelerations of drives jump at the last sample, that sample has those before the jump, as in a single run.
+    """
+    a, compiled, n = runs.get_accelerations(i), runs.compiled, runs.compiled.n
+    if a is None or not compiled.may_drive_acceleration_jump:
+        return a
+    t, y, discrete_states, _ = runs.get_samples(i)
+    q, v, p = y[:, :n], y[:, n : 2 * n], runs.arrays["p"][i]
+    times = find_evaluation_times(compiled, t, q, v, p)
+    if times[-1] == t[-1]:
+        return a
+    last = compiled.evaluate(times[-1:], q[-1:], v[-1:], discrete_states[-1:], p, field_names=frozenset(["a"]))
+    return np.append(a[:-1], last.a, axis=0)
 
 
 def _concatenate_samples(runs: Runs, indices: Sequence[int], field_names: frozenset[str]) -> EvaluatedSamples:
@@ -169,7 +186,7 @@ def _concatenate_samples(runs: Runs, indices: Sequence[int], field_names: frozen
         compiled.source, compiled, parameter_values, t, q, v, y[:, 2 * n :], discrete_states, state, field_names
     )
     result.sample_counts_of_runs = tuple(run_lengths)
-    accelerations = [a for i in indices if (a := runs.get_accelerations(i)) is not None]
+    accelerations = [a for i in indices if (a := _get_accelerations(runs, i)) is not None]
     if accelerations:
         result.accelerations, field_names = np.concatenate(accelerations), field_names - {"a"}
     if field_names:

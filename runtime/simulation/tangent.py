@@ -252,7 +252,7 @@ class Tangent:
     state: State
     transverse: bool
     flow: Flow
-    n_merged: int = 0  # always 0: tangent vectors do not vanish
+    n_coincidences: int = 0  # always 0: tangent vectors do not vanish
     growth_error: float = 0.0  # sum of the errors of ln of the growth
     z: Array = field(init=False)  # (2m + n_clearances + 1,)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.language.deprecations import CARRIED, warn_deprecated
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.file_expressions import list_possibly_undefined_expressions
 from gudgeon.simulation.simulation import Simulation
@@ -79,7 +80,7 @@ def build_script(source: KernelSource) -> str:
     )
 
 
-def carried(compiled: CompiledModel) -> str:
+def embed_scene(compiled: CompiledModel) -> str:
     """Return HTML of simulator, description and module for a user's page; `gudgeon.load` takes both elements' texts.
 
     Raises BuildError if the compiler for pages is not installed.
@@ -89,6 +90,12 @@ def carried(compiled: CompiledModel) -> str:
         f"<script>\n{build_script(compiled.source)}</script>\n"
         f"{build_json_element(DESCRIPTION_ID, build_description(compiled))}{module}"
     )
+
+
+def carried(compiled: CompiledModel) -> str:
+    """Return `embed_scene(compiled)`. Deprecated, see the changes."""
+    warn_deprecated(CARRIED)
+    return embed_scene(compiled)
 
 
 def pack_module(compiled: CompiledModel, suffix: str = "") -> str:

@@ -10,12 +10,12 @@ from html import escape
 from typing import Any
 from warnings import warn
 
-from gudgeon.assembly.guess_warnings import find_user_stack_level
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size
 from gudgeon.drawing.rig import Rig
 from gudgeon.errors import BuildError, SolverError
+from gudgeon.language.deprecations import find_user_stack_level
 from gudgeon.language.text_output import format_one_line
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation

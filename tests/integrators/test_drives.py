@@ -69,6 +69,25 @@ def test_the_work_of_a_jump_is_counted_where_nothing_is_free(value: str, tmp_pat
     assert run.diagnostics.energy_residual < 1e-9
 
 
+@pytest.mark.parametrize("text", [PAIR, ONE], ids=["free pendulum", "nothing is free"])
+def test_accelerations_at_an_end_on_a_jump_are_those_before_it_in_all_kinds_of_runs(text: str, tmp_path: Path) -> None:
+    """The drive has the angle t² 1 rad/s² up to 0.5 s; its acceleration jumps there from 2 to 8 rad/s²."""
+    value = "1 rad/s^2 * (t**2 + 3 * max(0 s, t - 0.5 s)**2)"
+    simulation = driven(text + "parameters: {x: 1 m}\nforces: {}\n", value, tmp_path)
+    values = {"x": np.array([1.0, 2.0])}
+    batch = simulation.simulate_many(values, 0.5, output=10)
+    kept = simulation.simulate_many(values, 0.5, output=10, keep=["a.alpha"])
+    runs = [
+        simulation.simulate(0.5, output=10)["a.alpha"],
+        batch["a.alpha"][1],
+        batch[1]["a.alpha"],
+        kept["a.alpha"][1],
+        simulation.prepare("x", "a.alpha", 0.5, output=10)(np.array([2.0])).ravel(),
+    ]
+    for run in runs:
+        np.testing.assert_allclose(run, 2.0, atol=1e-9)
+
+
 COMPLEX: list[tuple[str, Callable[[np.ndarray], np.ndarray]]] = [
     ("abs(acos(t / (1 s)))", lambda t: -1 / np.sqrt(1 - t**2)),
     ("abs((t / (1 s) + 1)**0.3)", lambda t: 0.3 * (t + 1) ** -0.7),

@@ -116,7 +116,7 @@ def test_everything_follows_from_it(disc: Path) -> None:
     }
     assert next(s for s in source.parameters if s.address.endswith("damping")).unit == "kg/s"
     shown = render_equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
-    assert "any book on vibrations" in shown and "F_n = δ·K + δ̇·D" in shown
+    assert "W. Goldsmith, Impact (1960)" in shown and "F_n = δ·K + δ̇·D" in shown
     assert "dashpot" in json.dumps(make_schema()) and list_law_display_paths() == [str(disc.parent / "dashpot.py")]
 
 

@@ -49,22 +49,22 @@ def duffing(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
     return on_a_rail(tmp_path_factory.mktemp("duffing"), DUFFING)
 
 
-@pytest.mark.parametrize("by", [pytest.param("tangent", marks=pytest.mark.slow), "twin"])
+@pytest.mark.parametrize("by", [pytest.param("tangent", marks=pytest.mark.slow), "two_trajectory"])
 def test_linear_oscillators_to_a_percent(duffing: Simulation, by: str) -> None:
     """On a hill of stiffness −k: √(k/m). In a valley, damped: −d/2m, whatever the phase in which it ends."""
     hill = duffing.lyapunov(10.0, by=by, parameters=LINEAR | {"k": -4.0, "x0": 0.0})
     valley = duffing.lyapunov(27.0, by=by, parameters=LINEAR | {"k": 4.0, "d": 1.2})
     assert hill.exponent == pytest.approx(2.0, rel=1e-3) and hill.by == by and hill.sign == 1
     assert valley.exponent == pytest.approx(-0.6, rel=0.01) and valley.sign == -1
-    assert valley.believable() == math.inf
-    assert hill.believable(1e-8) == pytest.approx(math.log(0.25e8) / 2.0, rel=1e-3)
+    assert valley.mean_horizon() == math.inf
+    assert hill.mean_horizon(1e-8) == pytest.approx(math.log(0.25e8) / 2.0, rel=1e-3)
 
 
 @pytest.mark.slow
 def test_constraints_are_kept_in_the_full_formulation(tmp_path: Path) -> None:
     """Neighbours leave neither the rail nor its direction: rows that nothing drives back would show as 0 or more."""
     rail = on_a_rail(tmp_path, DUFFING, formulation="full")
-    for by in ("tangent", "twin"):
+    for by in ("tangent", "two_trajectory"):
         found = rail.lyapunov(10.0, by=by, parameters=LINEAR | {"k": 9.0, "d": 4.0})
         assert found.exponent == pytest.approx(-2.0, rel=0.01)
 
@@ -83,7 +83,7 @@ def test_the_growth_is_that_of_the_variational_equation(duffing: Simulation) -> 
 
     known = solve_ivp(rates, (0.0, ends[1]), [1.0, 0.0, *first[[0, 3]]], "DOP853", ends, rtol=1e-12, atol=1e-13)
     expected = np.log(np.hypot(known.y[2] / x, known.y[3] / v) / measure.compute_norm(first))
-    for by in ("tangent", "twin"):
+    for by in ("tangent", "two_trajectory"):
         found = duffing.lyapunov(ends[1], by=by)
         logs = np.interp(ends, found.t, np.concatenate([[0.0], np.cumsum(found.growth)]))
         np.testing.assert_allclose(logs, expected, atol=1e-3)
@@ -92,7 +92,7 @@ def test_the_growth_is_that_of_the_variational_equation(duffing: Simulation) -> 
 def test_ueda_s_oscillator_is_chaotic_as_published(duffing: Simulation) -> None:
     """k = .05, B = 7.5 (Y. Ueda, J. Stat. Phys. 20:181, 1979): λ = .1034 1/s (J. C. Sprott, Chaos and Time-Series
     Analysis, 2003, appendix A)."""
-    found = duffing.lyapunov(1200.0, by="twin", section="2*pi/w", rtol=1e-10)
+    found = duffing.lyapunov(1200.0, by="two_trajectory", section="2*pi/w", rtol=1e-10)
     assert abs(found.exponent - 0.1034) < 3.0 * found.uncertainty < 0.04
     assert found.per_return == pytest.approx(2 * math.pi * found.exponent, rel=0.1)
     motion = found.motion
@@ -103,7 +103,7 @@ def test_ueda_s_oscillator_is_chaotic_as_published(duffing: Simulation) -> None:
 def test_returns_once_a_period(duffing: Simulation) -> None:
     """Linear and driven: damped it repeats the drive, undamped with half its frequency it returns to every second
     point, with √2 of it to none."""
-    options: dict[str, Any] = {"section": "2*pi/w", "by": "twin", "rtol": 1e-10}
+    options: dict[str, Any] = {"section": "2*pi/w", "by": "two_trajectory", "rtol": 1e-10}
     given = {"k3": 0.0, "A": 1.0}
     damped = duffing.lyapunov(500.0, skip=150.0, parameters=given | {"k": 2.0, "d": 0.3}, **options)
     half = duffing.lyapunov(280.0, parameters=given | {"k": 0.25, "d": 0.0}, **options)
@@ -114,7 +114,7 @@ def test_returns_once_a_period(duffing: Simulation) -> None:
     assert torus.motion.kind == "quasi-periodic" and torus.sign == 0 and abs(torus.motion.K) < 0.2
 
 
-@pytest.mark.parametrize("by", ["twin", pytest.param("tangent", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("by", ["two_trajectory", pytest.param("tangent", marks=pytest.mark.slow)])
 def test_a_section_without_a_clock_leaves_out_the_motion_itself(by: str, tmp_path: Path) -> None:
     """Van der Pol's cycle: along it differences stay, from return to return they shrink by exp ∮ div f dt."""
     oscillator = on_a_rail(tmp_path, VAN_DER_POL)
@@ -128,7 +128,7 @@ def test_a_section_without_a_clock_leaves_out_the_motion_itself(by: str, tmp_pat
     rising.direction = 1.0  # type: ignore[attr-defined]
     known = solve_ivp(rates, (0.0, 100.0), [1.0, 0.0, 0.0], "DOP853", events=rising, rtol=1e-11, atol=1e-12)
     multiplier = np.diff(known.y_events[0][-2:, 2])[0]
-    along = oscillator.lyapunov(120.0, skip=40.0, by="twin", rtol=1e-10)
+    along = oscillator.lyapunov(120.0, skip=40.0, by="two_trajectory", rtol=1e-10)
     assert abs(along.exponent) < 0.01 and not along.transverse
     across = oscillator.lyapunov(360.0, skip=40.0, by=by, section="up", rtol=1e-10)
     assert across.transverse
@@ -199,7 +199,7 @@ def test_the_tangent_knows_that_a_contact_remembers_its_onset() -> None:
 
 @pytest.mark.parametrize("scene", [pytest.param("elastic", marks=pytest.mark.slow), "damped"])
 def test_twin_and_tangent_agree_over_impacts(scene: str) -> None:
-    twin, tangent = (ball(scene).lyapunov(2.0, by=by) for by in ("twin", "tangent"))
+    twin, tangent = (ball(scene).lyapunov(2.0, by=by) for by in ("two_trajectory", "tangent"))
     assert tangent.exponent == pytest.approx(twin.exponent, rel=0.01)
     assert tangent.unresolved < 1e-5 * abs(tangent.exponent)
 
@@ -207,7 +207,7 @@ def test_twin_and_tangent_agree_over_impacts(scene: str) -> None:
 def test_the_tangent_goes_through_joints_with_play_and_friction() -> None:
     """The dry press over its first contact, in which differences of speed grow a thousandfold."""
     press = gudgeon.load("nine_bar_press", scene="dry")
-    tangent, twin = (press.lyapunov(0.0073, skip=0.0066, by=by) for by in ("tangent", "twin"))
+    tangent, twin = (press.lyapunov(0.0073, skip=0.0066, by=by) for by in ("tangent", "two_trajectory"))
     assert tangent.growth.sum() == pytest.approx(twin.growth.sum(), rel=0.02) and twin.growth.sum() > 3.0
 
 
@@ -215,7 +215,7 @@ def test_films_are_followed_by_a_twin_and_spans_without_motion_are_refused() -> 
     """The tangent's mesh is as fine as a film is stiff: a tenth of a second of it takes minutes."""
     press = gudgeon.load("nine_bar_press", scene="lubricated")
     found = press.lyapunov(0.25)
-    assert found.by == "twin" and "the film of A is stiff" in found.why and found.exponent < 5.0
+    assert found.by == "two_trajectory" and "the film of A is stiff" in found.why and found.exponent < 5.0
     with pytest.raises(BadValueError, match=r"a span of 0\.01 s is too short"):
         press.lyapunov(0.11, skip=0.1)
     with pytest.raises(BadValueError, match="too short"):
@@ -228,6 +228,8 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
     with pytest.raises(BadValueError, match="sticks and slips"):
         gudgeon.load("belt_block").lyapunov(1.0, by="tangent")
     with pytest.raises(BadValueError, match=r"rtol is 1e-8: errors of steps[^$]*expected 1e-10 or less"):
+        duffing.lyapunov(1.0, by="two_trajectory", rtol="1e-8")
+    with pytest.warns(DeprecationWarning, match="use by="), pytest.raises(BadValueError, match="rtol is"):
         duffing.lyapunov(1.0, by="twin", rtol="1e-8")
     with pytest.raises(BadValueError, match="by is"):
         duffing.lyapunov(1.0, by="guess")
@@ -247,4 +249,4 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
 def test_a_scene_that_sticks_is_followed_by_a_twin() -> None:
     """A block on a belt: while it sticks, neighbours become one motion but for their phase."""
     found = gudgeon.load("belt_block").lyapunov(2.0)
-    assert found.by == "twin" and "sticks" in found.why and found.exponent < 1.0
+    assert found.by == "two_trajectory" and "sticks" in found.why and found.exponent < 1.0

@@ -79,3 +79,23 @@ def test_the_memory_of_a_run_is_freed_with_its_result(mechanism: str, scene: str
         assert samples() is None
     finally:
         gc.enable()
+
+
+@pytest.mark.parametrize(("mechanism", "scene"), [("slider_crank", "ideal"), ("slider_crank", "dry")])
+def test_a_long_run_takes_the_memory_of_its_samples(mechanism: str, scene: str) -> None:
+    """No second array as large as the samples exists at any time of the run, its audit and its notes.
+
+    Samples are evaluated in blocks, which have up to 25 MB.
+    """
+    simulation = gudgeon.load(mechanism, scene)
+    simulation.simulate(0.001, output=2)
+    tracemalloc.start()
+    try:
+        run = simulation.simulate(0.01, output=400_000)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    arrays = [run.t, run.q, run.v, run.work, run.memory, run.state]
+    if simulation.source.degrees_of_freedom == 0:
+        arrays.append(run.accelerations)  # stored with the samples
+    assert peak < sum(array.nbytes for array in arrays) + 40e6

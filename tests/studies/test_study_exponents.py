@@ -1,4 +1,4 @@
-"""Lyapunov exponents, kinds of motion and believable times as measures of a study, beside closed forms."""
+"""Lyapunov exponents, kinds of motion and mean horizons as measures of a study, beside closed forms."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_exponents_of_hill_and_valley(own: dict[str, Any]) -> None:
             "measures": {
                 "rate": {"lyapunov": "run"},
                 "error": {"lyapunov_error": "run"},
-                "far": {"believable": "run"},
+                "far": {"mean_horizon": "run"},
                 "late": {"lyapunov": "run", "window": "late"},
             },
         }
@@ -89,14 +89,14 @@ def test_kinds_of_motion_once_a_period(damping: list[float], own: dict[str, Any]
 def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
     """From x0 on a hill of stiffness −k it comes to x = 1 m after acosh(1/x0)/√k, and ends there or is braked for good.
 
-    By a twin, for the force jumps, whose tolerance is its own, however loose that of the runs is.
+    By a second run, for the force jumps, whose tolerance is its own, however loose that of the runs is.
     """
     text = RAIL.format(parameters="k: 4 N/m, x0: 1e-6 m", force="where(m.x < 1 m, k*m.x, m.x * 0 N/m - m.vx * 5 kg/s)")
     path = tmp_path / "edge.yaml"
     path.write_text(text.replace("events: {", "events: {edge: {zero: m.x - 1 m, action: stop}, "), encoding="utf-8")
     measures = {
         "rate": {"lyapunov": "run"},
-        "far": {"believable": "run"},
+        "far": {"mean_horizon": "run"},
         "kind": {"motion": "9 s"},
         "late": {"lyapunov": "run", "window": "late"},
         "ups": {"crossings": "up", "window": "late"},
@@ -137,7 +137,7 @@ BAD: list[tuple[dict[str, Any], str, str]] = [
     ({}, "{motion: run}", "a period: 2*pi/omega"),
     ({}, "{lyapunov: upp}", "unknown name"),
     ({}, "{lyapunov: 2*w}", "a time"),
-    ({"step": "1 ms"}, "{believable: run}", "fixed step"),
+    ({"step": "1 ms"}, "{mean_horizon: run}", "fixed step"),
     ({"mechanism": "slider_crank", "scenes": "ideal", "parameters": {}}, "{lyapunov: run}", "no degree of freedom"),
 ]
 

@@ -19,7 +19,7 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import build_description
 from gudgeon.web.module import compile_simulator
-from gudgeon.web.page import build_script, carried
+from gudgeon.web.page import build_script, embed_scene
 
 RUNNER = Path(__file__).with_name("runner.js")
 
@@ -108,7 +108,7 @@ def in_browser(simulation: Simulation, folder: Path, runs: list[dict[str, Any]])
     program = browser()
     assert program
     parts = {
-        "carried": carried(simulation.compiled),
+        "carried": embed_scene(simulation.compiled),
         "runner": RUNNER.read_text(),
         "runs": json.dumps(runs),
     }

@@ -14,7 +14,7 @@ from gudgeon.errors import BuildError, SolverError
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.module import compile_simulator
-from gudgeon.web.page import carried
+from gudgeon.web.page import embed_scene
 from tests.integrators.test_guide import ARM
 from tests.integrators.test_guide import HEAD as GUIDED_HEAD
 from tests.integrators.test_newton_restitution import BALL, HEAD
@@ -335,5 +335,5 @@ def test_without_its_compiler_it_says_what_to_install(monkeypatch: pytest.Monkey
 
 
 def test_nothing_of_a_file_ends_the_element_that_carries_it(tmp_path: Path) -> None:
-    message = carried(loader(tmp_path)(SWING).compiled)
+    message = embed_scene(loader(tmp_path)(SWING).compiled)
     assert message.count("</script>") == 3 and "alert(1)<" not in message

@@ -64,7 +64,9 @@ EXTRA_CLEARANCE = number(
     default=0.0,
     bounds=(Bound(">=", 0.0),),
 )
-SHEAR = flag("shear", "with the shear torque; the film force then acts at the centre of each pin and hole")
+SHEAR = flag(
+    "shear", "add the shear torque of the film; the film force then acts midway between the centres of pin and hole"
+)
 ANGULAR_VELOCITY = word(
     "angular_velocity",
     MarkedText(

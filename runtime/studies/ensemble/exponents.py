@@ -38,7 +38,7 @@ SECTION_STATISTICS = ("lyapunov_per_return", "motion", "motion_confidence")
 NEIGHBOUR_STATISTICS: Mapping[str, str] = {
     "lyapunov": "1/s",
     "lyapunov_error": "1/s",
-    "believable": "s",
+    "mean_horizon": "s",
 } | dict.fromkeys(SECTION_STATISTICS, "")  # statistic -> SI unit
 MOTION_CODES: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # periodic: number of returns
 MOTION_CODES_TEXT = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
@@ -57,7 +57,7 @@ def check_lyapunov_measures(study: StudyFile, source: KernelSource) -> None:
         if study.wear is not None:
             message = f"{owner}: neighbouring trajectories are not computed for contours with wear"
             raise BadValueError(message, where, "remove wear:, or this measure")
-        if measure.statistic == "believable" and (study.step is not None or study.method == "rk4"):
+        if measure.statistic == "mean_horizon" and (study.step is not None or study.method == "rk4"):
             message = (
                 f"{owner}: the predictability horizon needs the relative error of a step, unknown for a fixed step"
             )
@@ -200,8 +200,8 @@ def _read_statistic(statistic: str, lyapunov: Lyapunov | None, initial_error: fl
     """
     if lyapunov is None:
         return math.nan
-    if statistic == "believable":
-        return lyapunov.believable(initial_error)
+    if statistic == "mean_horizon":
+        return lyapunov.mean_horizon(initial_error)
     if statistic == "motion":
         motion = lyapunov.motion
         return float(motion.period) if motion.kind == PERIODIC else MOTION_CODES[motion.kind]
