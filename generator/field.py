@@ -93,7 +93,7 @@ class Field:
     dimension: Dimension | None = DIMENSIONLESS  # None: any, or determined by another key
     required: bool = False
     default: float | str | bool | None = None  # default that the reader fills in (SI)
-    either: str = ""  # another key that may stand in place of this one
+    alternative_key: str = ""  # another key that may stand in place of this one
     otherwise: str = ""  # what applies if the key is missing and has no default
     bounds: tuple[Bound, ...] = ()
     per: str = ""  # of a coefficient in N/m^n: the key of the exponent n, which determines the dimension
@@ -104,7 +104,7 @@ class Field:
     words: tuple[str, ...] = ()  # words allowed in place of a number
     sources: Mapping[str, str] | None = None  # word -> its source in the literature
     symbol: str = ""  # symbol in the literature, in LaTeX
-    names: str = ""  # the section in which a name is declared
+    section: str = ""  # of a name: the section whose entry it is
     fields: tuple[Field, ...] = ()
     entry: Field | None = None
     keys: Mapping[str, Dimension] | None = None  # of a mapping with keys BODY.key: dimension by key
@@ -198,14 +198,29 @@ def body_or_ground(name: str, meaning: str) -> Field:
     return Field(name, BODY, meaning, default="ground")
 
 
-def declare_entry_name(
-    names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = ""
+def declare_reference(
+    section: str,
+    name: str,
+    meaning: str,
+    required: bool = True,
+    alternative_key: str = "",
+    otherwise: str = "",
 ) -> Field:
-    """Declare a field that holds the name of an entry of the section `names`, such as a name of `bearings`.
+    """Declare a field that refers by name to an entry of another section (foreign key), such as to one of `bearings`.
 
-    `either`: another key that may be given instead, "" for none. `otherwise`: what applies if the key is missing.
+    `section`: the section with the entries; `name`, `meaning`: the key of the field, and what it holds.
+    `alternative_key`: another key that may be given instead, "" for none. `otherwise`: what applies if the key is
+    missing.
     """
-    return Field(name, NAME, meaning, names=names, required=required, either=either, otherwise=otherwise)
+    return Field(
+        name,
+        NAME,
+        meaning,
+        section=section,
+        required=required,
+        alternative_key=alternative_key,
+        otherwise=otherwise,
+    )
 
 
 def record(name: str, meaning: str, *fields: Field, required: bool = False) -> Field:

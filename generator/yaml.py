@@ -211,11 +211,11 @@ def parse_yaml(
     except _RUAMEL_ERRORS:
         hint = "check the characters after % and after backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
-    duplicates = composer.duplicates[:MAX_DUPLICATES]
+    key_errors = composer.key_errors[:MAX_DUPLICATES]
     if duplicate_errors is not None:
-        duplicate_errors += duplicates
-    elif duplicates:
-        raise combine_errors(duplicates)
+        duplicate_errors += key_errors
+    elif key_errors:
+        raise combine_errors(key_errors)
     hint = f"expected a mapping that begins with format: {expected_format}"
     if root is None or isinstance(root, Text) and root.is_null:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
@@ -291,7 +291,7 @@ class _Composer:
         self.anchors: dict[str, Node] = {}
         self.sizes: dict[int, int] = {}  # id of an anchored node -> nodes in it, aliases expanded
         self.nodes = 0
-        self.duplicates: list[InputError] = []
+        self.key_errors: list[InputError] = []
 
     def compose_document(self) -> Node | None:
         """Return the root node of the document; None if there is none. Raises NotYamlError at a second document."""
@@ -385,10 +385,11 @@ class _Composer:
         return items
 
     def compose_mapping(self, event: Any, depth: int) -> Map:
-        """Return the mapping that begins with `event`; errors of repeated and merge keys are appended to `duplicates`.
+        """Return the mapping that begins with `event`; errors of its keys are appended to `key_errors`.
 
-        Of a repeated key the first value counts. Entries of the merge key "<<" are added for keys that the mapping
-        lacks. `depth`: the level of the mapping. Raises NotYamlError for a key that is not a scalar.
+        A repeated key is an error, and its first value counts. The merge key "<<" is an error, too. To go on, the
+        entries of a mapping under it are added for keys that this mapping lacks; other values under it, such as a list
+        of mappings, are dropped. `depth`: the level of the mapping. Raises NotYamlError for a key that is not a scalar.
         """
         node, merged_entries = Map.make_map((), self.find_location(event)), dict[str, Any]()
         while not isinstance(key_event := next(self.events), MappingEndEvent):
@@ -404,11 +405,11 @@ class _Composer:
                     key_event
                 )  # an empty value has the location of the next node
             if key == "<<":
-                self.duplicates.append(UnknownKeyError(NO_MERGE, key.where, MERGE_HINT))
+                self.key_errors.append(UnknownKeyError(NO_MERGE, key.where, MERGE_HINT))
                 merged_entries = value if isinstance(value, Map) else {}  # the entries are merged as intended
             elif key in node:
                 first = node.find_key(key).where
-                self.duplicates.append(
+                self.key_errors.append(
                     UnknownKeyError(
                         f"{str(key)!r} is given twice", key.where, f"expected once; the first is at {first}"
                     )

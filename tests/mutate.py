@@ -167,7 +167,7 @@ MEANS_NOTHING = {
     "generator/solvers/kkt.py:32: '0' -> '1': threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]": "EARLY is more than either share",
     "generator/kernels/dynamics.py:73: '0' -> '1': b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}": "a force that is 0 is written as 0",
     "generator/reduction/geometry.py:99: '1' -> '2': parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)": "a slide's coordinate in another unit: the same motion",
-    "generator/reduction/shared_points.py:63: '1' -> '2': signs[other.name] = 1 if first in connected else -1": "of a share only the sign is printed",
+    "generator/reduction/multiple_joints.py:63: '1' -> '2': signs[other.name] = 1 if first in connected else -1": "of a share only the sign is printed",
     "runtime/assembly/closure.py:99: '4' -> '5': for _ in range((N_RANDOM_STARTS if len(guess) <= MANY_COORDINATES else N_RANDOM_STARTS // 4) // 2):": "how many starts are tried",
     "generator/reduction/tree.py:64: '+' -> '-': depth_of_body[neighbour] = depth_of_body[body] + 1": "where chains are cut, so which trees are among the candidates",
     "generator/reduction/tree.py:66: '1' -> '2': depth_of_body[neighbour] = depth_of_body[body] + 1": "where chains are cut, so which trees are among the candidates",

@@ -20,7 +20,6 @@ from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
 from gudgeon.generator.kinds.laws.law import RESULTS, find_bundled_laws
 from gudgeon.generator.marked_text import get_markdown
-from gudgeon.generator.targets.latex.law_page import SYMBOLS_OF_KEYS
 from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_symbol
 from gudgeon.generator.targets.latex.play import BEARING_DIMENSIONS
@@ -619,7 +618,7 @@ def _iterate_law_rows() -> Iterator[tuple[str, ...]]:
         for law in find_bundled_laws().values():
             for field in law.parameters if law.role == role else ():
                 row = (
-                    SYMBOLS_OF_KEYS.get(f"{law.name}.{field.name}") or get_latex_symbol(field),
+                    get_latex_symbol(field).replace(r"\mathrm{el}", r"\text{el}"),
                     get_markdown(field.meaning),
                     f"contacts.NAME.{role}.{field.name}",
                     _format_unit(field),

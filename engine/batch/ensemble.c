@@ -262,7 +262,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
     if (trial_result != NO_TRIAL) {
         run->step.method = run->choice.method;
         if (trial_result != NOT_TRIED)
-            reset_singular_policy(run);
+            complete_singular_policy(run);
         const int trial_status = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
             : try_step(run, p, &run->step);
         if (!accept_or_retry_step(run, trial_status, p, &run->step, &status))

@@ -4,9 +4,11 @@
  */
 
 /*
- * Load into lane k the step limits of a run and its controller state: length before limits, last error, observed order,
- * last length, count of steps against the method. Also its largest constraint residuals, its record of film errors, its
- * peaks, and scales of switching functions. The count of evaluations starts at 0.
+ * Load into lane k the step limits of a run and the state of its step-size control: length before limits, last error,
+ * observed order, last length, and for the choice of the method the number of successive steps that favour the other
+ * method (n_opposing_steps) and the length of the first of them. Also its largest constraint residuals, its record of
+ * film errors, its peaks, and scales of switching functions. The count of evaluations starts at 0. Called before steps
+ * that are accepted in the lane (local steps).
  */
 static void load_controller_state(
     LaneLocalSteps *local_steps, int k, const LocalStepLimits *limits, const Integrator *run)

@@ -57,8 +57,9 @@ static int needs_method(const LaneGroup *group, int i, int method) { return grou
 
 /*
  * Count, for each method, the lanes that have a run whose next step is by that method (count, N_LANE_METHODS of them).
- * Run i belongs to lane i % LANES; a lane with several such runs counts once. Methods that this library lacks count 0:
- * runs make their steps themselves.
+ * Run i belongs to lane i % LANES; a lane with several such runs counts once. The lanes of the method taylor are in one
+ * library (LANE_SERIES), those of all other methods in another one. Methods of the other library count 0: the functions
+ * for single runs make their steps.
  */
 static void count_lanes_of_methods(const LaneGroup *group, int *count)
 {

@@ -63,7 +63,7 @@ static LaneBits compute_closure_correction(LaneIntegrator *run, LaneBits is_acti
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *residual)
 {
     set_pivot_limits(&run->discrete);
-    closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, residual, &run->discrete.needs_scalar);
+    compute_closure_step(t, y, y + N_X, &run->discrete, p, dq, dv, residual, &run->discrete.needs_scalar);
     run->discrete.needs_scalar |= is_active
         & (find_nonfinite_lanes(dq, NULL, N_X) | find_nonfinite_lanes(dv, NULL, N_X));
     return is_active;

@@ -152,8 +152,9 @@ static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParamet
 
 #if IMPLICIT_STAGES
 /*
- * Factorize Newton's matrix at the complex number eta + i eta_i (s) in all lanes, into `matrix`. Return 0. Lanes with a
- * vanishing pivot are marked in needs_scalar.
+ * Factorize Newton's matrix of a Radau method in all lanes, into `matrix`. eta + i eta_i (s): the step length divided
+ * by a complex eigenvalue of the method's matrix. Return 0. Lanes with a vanishing pivot are marked in needs_scalar.
+ * For single runs, the function of this name is in methods/radau.c.
  */
 static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *matrix)
 {
@@ -194,8 +195,11 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
 }
 
 /*
- * Store the data of a stage at fraction `node` in the active lanes; lanes that have found their stages keep theirs. y:
- * state; rhs: outputs of the right-hand side at the stage.
+ * Store the data of a stage at fraction `node` of the step in the active lanes: event functions, squared forces and gap
+ * rates from the outputs `rhs` of the right-hand side, and their extremes over the stages. Lanes whose iteration has
+ * converged (inactive) keep theirs. y: state at the stage; its smallest and largest components are kept if the scene
+ * has monitored functions, otherwise y is not used. Called for each stage in each Newton iteration of the Radau
+ * methods.
  */
 static void record_newton_stage(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
     const LaneRhsOutputs *rhs, double node)

@@ -9,15 +9,16 @@ static int is_relation_satisfied(const char *relation, double value, double boun
 }
 
 /*
- * Write " with parameters.c = -0.0001 m" into `text` of `size` bytes: the parameters that the importer has set, if the
- * value number value_index depends on parameters. Otherwise the text is empty. Parameters that no longer fit are
- * omitted.
+ * Write " with parameters.c = -0.0001 m" into `text` of `size` bytes: all entries of the section `parameters` that the
+ * importer has set, separated by ", ". The text is empty if the value number value_index depends on no parameter. The
+ * listed parameters need not be those on which it depends. Parameters that no longer fit are omitted. Used in messages
+ * about invalid values.
  */
 static void format_set_parameters(const Model *model, int value_index, char *text, size_t size)
 {
     const char *before = " with ";
     text[0] = 0;
-    for (int k = 0; fmu_parameters[value_index].follows && k < FMU_N_PARAMETERS; k++)
+    for (int k = 0; fmu_parameters[value_index].depends_on_parameters && k < FMU_N_PARAMETERS; k++)
         if (model->is_set[k] && !strncmp(fmu_parameters[k].address, "parameters.", 11) && strlen(text) + 100 < size) {
             const size_t n = strlen(text);
             snprintf(text + n, size - n, "%s%s = %.6g%s%s", before, fmu_parameters[k].address, model->p[k],

@@ -19,7 +19,10 @@ static int is_batch_ending(void *context)
 /* Return the row in which works accumulate, J: those of the next sample of a run. */
 static double *get_current_works(const RunSamples *samples) { return samples->y + samples->done * N_S + 2 * N_Q; }
 
-/* Return the largest |a| of N_Q accelerations; NaN components are skipped. */
+/*
+ * Return the largest |a| of N_Q accelerations, of positions (m/s^2) and angles (rad/s^2) alike; NaN components are
+ * skipped. Called for each sample: has_acceleration_outlier() compares the samples.
+ */
 static double find_largest_acceleration(const double *a)
 {
     double largest = 0.0;
@@ -226,7 +229,7 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *analysis, long n, 
 const void *gudgeon_single_run_functions(void)
 {
     static const KinematicRunFunctions single = {begin_kinematic_run, advance_run, end_kinematic_run, detect_stall,
-        count_steps_before_check, has_hidden_transient};
+        count_steps_before_check, has_undersampled_transient};
     return &single;
 }
 #endif

@@ -298,7 +298,9 @@ static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Inte
 
 /*
  * Compute bounds of positions q and velocities v (N_Q intervals each) over the cubic Hermite interpolant between
- * positions a and b. Their slopes are by the fraction of the part.
+ * positions a and b. Each Interval has bounds of the value, and of its derivative with respect to the fraction s of the
+ * part (0 <= s <= 1). The bounds of dq/ds contain both ends and the extremum of that quadratic. The bounds of q follow
+ * from the bounds of dq/ds, from both ends; v is dq/ds divided by the length of the part in s.
  */
 static void bound_motion(const Position *a, const Position *b, Interval *q, Interval *v)
 {

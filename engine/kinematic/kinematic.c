@@ -134,17 +134,20 @@ static int is_term_negligible(void *context, double fraction, int is_certain)
 }
 
 /*
- * Return whether the step from t0 to t1 hides a transient: a term of time alone acts only between the five times at
- * which ends and quadrature of works evaluate it.
+ * Return whether the step from t0 to t1 (s) has an undersampled transient: a term of time alone acts only between the
+ * five times at which ends and quadrature of works evaluate it. make_step() then halves the step.
  */
-static int has_hidden_transient(double t0, double t1, const Parameters *p)
+static int has_undersampled_transient(double t0, double t1, const Parameters *p)
 {
     static const double node[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
     return find_undersampled_term(t0, t1 - t0, node, 5, is_term_negligible, NULL, p) > 0.0;
 }
 #else
-/* Return 0, no transient: the scene has no terms of time alone. */
-static int has_hidden_transient(double t0, double t1, const Parameters *p)
+/*
+ * Return 0, no transient: the scene has no terms of time alone. Replaces the function above in such scenes, so that
+ * make_step() halves no step because of a transient.
+ */
+static int has_undersampled_transient(double t0, double t1, const Parameters *p)
 {
     (void)t0, (void)t1, (void)p;
     return 0;
@@ -193,7 +196,7 @@ static int make_step(KinematicRun *run, StepLength *step_length, double t1, Posi
             error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error
             && (step_length->halvings > MAX_HALVINGS_FOR_TRANSIENT
-                || !has_hidden_transient(position->t, next, run->p))) {
+                || !has_undersampled_transient(position->t, next, run->p))) {
             *position = next_position;
             /* the error is proportional to h cubed */
             if (step_length->halvings > 0 && error < STEP_DOUBLING_ERROR * max_error) {

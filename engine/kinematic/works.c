@@ -1,8 +1,8 @@
 /* Works of forces and drives along a kinematic motion: quadrature of the powers, and impulses at velocity jumps. */
 
 /*
- * Compute the powers (N_WORK), W, of forces and drives at a position; in absolute coordinates also position->a. Return
- * the status of solve_accelerations().
+ * Compute the powers (N_WORK), W, of forces and drives at a position. Outside tree coordinates (POSITIONS_IN_TREE = 0)
+ * the accelerations are stored in position->a, too. Return the status of solve_accelerations().
  */
 static int compute_powers(KinematicRun *run, Position *position, double *power)
 {

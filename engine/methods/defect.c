@@ -83,8 +83,11 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
 }
 
 /*
- * Return whether the film forces of a stiff method exceed their error limit at an event at `fraction` of a step. The
- * state there is the start of the next step. Always 0 for explicit methods and without films.
+ * Return whether the film forces at an event at `fraction` of a step have a larger error than
+ * compute_film_error_limit() allows. evaluate_relative_film_error() estimates the error: it compares the rates of the
+ * dense output with those of the right-hand side at the same state. That state is the start of the next step: if 1 is
+ * returned, find_event_of_step() repeats the step to end just after the event. Always 0 for explicit methods and
+ * without films.
  */
 static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step, double fraction, const Parameters *p)
 {

@@ -2,8 +2,8 @@
  * needs. */
 
 /*
- * Factorize Newton's matrix at the complex number eta + i eta_i (s), from the linearization of the run, into `matrix`.
- * Return 0, or NOT_FINITE if it is singular.
+ * Factorize Newton's matrix of a Radau method, from the linearization of the run, into `matrix`. eta + i eta_i (s): the
+ * step length divided by a complex eigenvalue of the method's matrix. Return 0, or NOT_FINITE if it is singular.
  */
 static int factor_complex_matrix(Integrator *run, double eta, double eta_i, ComplexLinear *matrix)
 {

@@ -22,7 +22,7 @@ static void set_singular_policy(Integrator *run, int policy)
  * Set the policy of a new step before its first attempt: SINGULAR_DETECT, or SINGULAR_IGNORE while detection is
  * suspended.
  */
-static void begin_singular_policy(Integrator *run)
+static void select_singular_policy(Integrator *run)
 {
     set_singular_policy(run, run->near_singular.n_steps_without_detection ? SINGULAR_IGNORE : SINGULAR_DETECT);
 }
@@ -36,7 +36,7 @@ static void begin_singular_policy(Integrator *run)
  *   SINGULAR_IGNORE: it stays. After a detected position, detection is suspended for 1, 3, 7, ... and at most
  *       2^MAX_SKIPPED_LOG2 - 1 steps; a step without detection counts as one of them.
  */
-static int advance_singular_policy(Integrator *run, int status)
+static int update_singular_policy(Integrator *run, int status)
 {
     const int policy = run->discrete.singular_policy;
     if (status == NEAR_SINGULAR) {
@@ -57,21 +57,23 @@ static int advance_singular_policy(Integrator *run, int status)
 }
 
 /*
- * Set the policy near singular positions as after a step that met none: one step less without detection, and the policy
- * of states outside steps. Called for steps that were computed in lanes.
+ * Update the policy near singular positions for an accepted step that met none, as if the step had been tried with it:
+ * first select_singular_policy(), then update_singular_policy() with status 0. The policy of states outside steps is
+ * then SINGULAR_CONTINUE after SINGULAR_DETECT, else SINGULAR_IGNORE, and one step fewer is without detection. Called
+ * for steps that were computed in lanes.
  */
-static inline void reset_singular_policy(Integrator *run)
+static inline void complete_singular_policy(Integrator *run)
 {
-    begin_singular_policy(run);
-    advance_singular_policy(run, 0);
+    select_singular_policy(run);
+    update_singular_policy(run, 0);
 }
 #else
 /* Do nothing: the scene does not continue its motion past singular positions. */
-static inline void reset_singular_policy(Integrator *run) { (void)run; }
+static inline void complete_singular_policy(Integrator *run) { (void)run; }
 
 /* Do nothing: the scene does not continue its motion past singular positions. */
-static void begin_singular_policy(Integrator *run) { (void)run; }
+static void select_singular_policy(Integrator *run) { (void)run; }
 
 /* Return 0, the step is not repeated: the scene does not continue its motion past singular positions. */
-static int advance_singular_policy(Integrator *run, int status) { return (void)run, (void)status, 0; }
+static int update_singular_policy(Integrator *run, int status) { return (void)run, (void)status, 0; }
 #endif

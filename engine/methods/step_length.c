@@ -22,7 +22,7 @@
 #define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
 #define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
-enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against the stiff method until it is left */,
+enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps until the stiff method is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
     MAX_OPPOSING_STEPS = 3 /* successive steps against the explicit method until the first change */,
@@ -469,15 +469,15 @@ static int accept_or_retry_step(Integrator *run, int trial_status, const Paramet
 /*
  * Compute one attempt at a step of length run->control.attempt.h by the run's method, into `step`. Return 0 or the
  * status; the error is not tested here. Near a singular position it is computed again with other policies
- * (advance_singular_policy()).
+ * (update_singular_policy()).
  */
 static int try_step(Integrator *run, const Parameters *p, Step *step)
 {
     step->method = run->choice.method;
     step->stages_lane = NULL;
     int status;
-    for (begin_singular_policy(run);
-         advance_singular_policy(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
+    for (select_singular_policy(run);
+         update_singular_policy(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
         ;
     return status;
 }

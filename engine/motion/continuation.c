@@ -25,7 +25,7 @@ static int project_and_evaluate_state(
     double step_sum = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
         double dq[N_X], dv[N_X], residual, step = 0.0;
-        const int status = solve_correction(t, y, discrete, p, dq, dv, &residual);
+        const int status = compute_projection_step(t, y, discrete, p, dq, dv, &residual);
         if (status)
             return status;
         for (int k = 0; k < N_X; k++) {
@@ -193,7 +193,7 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
 {
-    int status = solve_correction(t, y, discrete, p, dq, dv, residual);
+    int status = compute_projection_step(t, y, discrete, p, dq, dv, residual);
     if (!status || discrete->singular_policy == SINGULAR_IGNORE || discrete->singular_policy == SINGULAR_DETECT)
         return status;
     double dy[N_Y];
@@ -203,7 +203,7 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
     if (evaluate_rhs(t, y, &discrete_state, p, dy, &rhs) != NEAR_SINGULAR
         || !continue_motion(t, y, discrete, p, &continued)) {
         discrete_state = copy_state_with_usual_pivot_limits(discrete);
-        return solve_correction(t, y, &discrete_state, p, dq, dv, residual);
+        return compute_projection_step(t, y, &discrete_state, p, dq, dv, residual);
     }
     for (int k = 0; k < N_X; k++) {
         dq[k] = y[k] - continued.y[k];
@@ -231,6 +231,6 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
 {
-    return solve_correction(t, y, discrete, p, dq, dv, residual);
+    return compute_projection_step(t, y, discrete, p, dq, dv, residual);
 }
 #endif

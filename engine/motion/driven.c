@@ -14,7 +14,7 @@ int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Param
     if (status)
         return status;
 #if !SMOOTH_DRIVEN_LOOPS
-    loop_switches(t, tree.q, discrete, p, rhs->g);
+    evaluate_loop_switching_functions(t, tree.q, discrete, p, rhs->g);
 #endif
 #ifdef N_UNUSED_SWITCHES
     for (int i = 0; i < N_UNUSED_SWITCHES; i++)
@@ -29,8 +29,9 @@ int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Param
 }
 
 /*
- * Evaluate the contacts of joints with play at state y into rhs->clearance, without solving for accelerations. Return 0
- * or a status. Driven loops are solved at time t first.
+ * Evaluate the contacts of joints with play at state y into rhs->clearance, and the switching functions into rhs->g,
+ * without solving for accelerations: reduced_dynamics() omits them if its argument `a` is NULL. Return 0 or a status.
+ * Driven loops are solved at time t first.
  */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
@@ -39,7 +40,7 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
     if (status)
         return status;
 #if !SMOOTH_DRIVEN_LOOPS
-    loop_switches(t, tree.q, discrete, p, rhs->g);
+    evaluate_loop_switching_functions(t, tree.q, discrete, p, rhs->g);
 #endif
     return reduced_dynamics(t, tree.q, tree.v, discrete, p, NULL, rhs);
 }
@@ -109,14 +110,15 @@ void convert_absolute_to_integrated(double t, const double *absolute_state, Disc
 /*
  * Compute one Newton step of the projection of state y onto the loop closures: corrections dq, dv (N_X), to be
  * subtracted, and the largest residual *residual. Driven loops are solved at time t first. y is not changed. Return 0
- * or a status.
+ * or a status. Called by the continuation of the motion (continuation.c), also as the step of compute_correction() away
+ * from singular positions.
  */
-int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *residual)
+int compute_projection_step(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq,
+    double *dv, double *residual)
 {
     TreeState tree;
     const int status = build_tree_state(t, y, discrete, p, &tree);
-    return status ? status : closing_step(t, tree.q, tree.v, discrete, p, dq, dv, residual);
+    return status ? status : compute_closure_step(t, tree.q, tree.v, discrete, p, dq, dv, residual);
 }
 
 /*
@@ -162,12 +164,14 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 #else
 /*
  * Compute one Newton step of the projection of state y onto the loop closures: corrections dq, dv (N_X), to be
- * subtracted, and the largest residual *residual. y is not changed. Return 0 or a status.
+ * subtracted, and the largest residual *residual. y is not changed. Return 0 or a status. The
+ * scene has no driven loops: the step is that of compute_closure_step() of the scene. Called by the continuation
+ * of the motion (continuation.c), also as the step of compute_correction() away from singular positions.
  */
-int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *residual)
+int compute_projection_step(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq,
+    double *dv, double *residual)
 {
-    return closing_step(t, y, y + N_X, discrete, p, dq, dv, residual);
+    return compute_closure_step(t, y, y + N_X, discrete, p, dq, dv, residual);
 }
 
 /*

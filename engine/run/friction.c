@@ -167,8 +167,9 @@ static int correct_modes_after_jump(Integrator *run, const Parameters *p)
 
 /*
  * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick if |slip| <=
- * MAX_STICK_SPEED. If any was set, iterate all modes to a consistent set. Modes that a start specifies are corrected if
- * they contradict the slip, as after a change of parameters. Return 0 or a status. Called once, when a run begins.
+ * MAX_STICK_SPEED. Modes that a start specifies are corrected if they contradict the slip, as after a change of
+ * parameters. If any mode was set or corrected, iterate all modes to a consistent set. Return 0 or a status. Called
+ * once, when a run begins.
  */
 static int initialize_friction_modes(Integrator *run, const Parameters *p)
 {

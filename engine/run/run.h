@@ -240,9 +240,9 @@ typedef struct {
     double h_rho; /* h rho of the last tried step: its length times the largest rate of the motion */
     double rho; /* largest rate of the motion, 1/s, where `auto` returned to the explicit method */
     double mean_length[2]; /* s: of recent steps of the explicit and of the stiff method; 0: none */
-    double opposing_length; /* s: of the first of the successive steps against the method */
+    double opposing_length; /* s: of the first of the successive steps that favour the other method */
     int automatic; /* whether the run may change between both methods */
-    int n_opposing_steps, steps_since_change; /* successive steps against the method; steps since the last change */
+    int n_opposing_steps, steps_since_change; /* successive steps for the other method; steps since the last change */
     int n_unstable_steps; /* rejected unstable steps since the last change of a contact or of the method */
     int return_steps, max_opposing_steps; /* steps against the stiff, and the explicit method until the change */
 } MethodChoice;

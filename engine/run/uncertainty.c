@@ -177,7 +177,7 @@ static inline void evaluate_significant_events(
     (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)values;
 }
 
-/* Do nothing: the scene has no monitored functions. */
+/* Do nothing: the scene has no monitored functions. Replaces the function above in such scenes. */
 static inline void estimate_rounding_uncertainty(const Integrator *run, double t, const double *y, const Parameters *p,
     double *uncertainty)
 {

@@ -86,10 +86,16 @@ static inline void compute_collocation_polynomial(const RadauTable *table, int s
         }
 }
 
-/* Compute the state y (N_Y) at fraction s of a step from y0 at its beginning and the dense output d of degree 5. */
-static inline void evaluate_collocation_polynomial(const Real *y0, const Real (*d)[N_Y], double s, Real *y)
+/*
+ * Compute the state y (N_Y) at fraction s of a step, by the dense output of degree 5 in nested form: y = y0 + s (d0 + r
+ * (d1 + s (d2 + r (d3 + s d4)))), r = 1 - s. y0: state at the beginning; dense_coefficients: d0 to d4, as
+ * compute_collocation_polynomial() returns them. Called for dense output, by single runs and by lanes.
+ */
+static inline void evaluate_collocation_polynomial(
+    const Real *y0, const Real (*dense_coefficients)[N_Y], double s, Real *y)
 {
     const double r = 1.0 - s;
+    const Real (*const d)[N_Y] = dense_coefficients;
     for (int i = 0; i < N_Y; i++)
         y[i] = y0[i] + s * (d[0][i] + r * (d[1][i] + s * (d[2][i] + r * (d[3][i] + s * d[4][i]))));
 }

@@ -73,14 +73,17 @@ static inline Mask is_last_film_error_valid(Real end_error, Real h, Real film_er
 }
 
 /*
- * Return a lower bound of the event function of a contact between its samples at beginning, stages and end of a step,
- * from its rates there. begin, end: the event function at both ends, m.
+ * Return a lower bound (m) of the event function of a contact between its samples at beginning, stages and end of a
+ * step: the smallest sample, less QUARTER_STAGE_DISTANCE h (largest - smallest rate) CURVATURE_SAFETY / 2. It is an
+ * estimate, because the second derivative between samples is estimated from the range of the rates. value_begin,
+ * value_end (m), rate_begin, rate_end (m/s): the event function and its rate at both ends. Those of the stages are in
+ * step->min_event_value and step->gap_rate_range.
  */
-static inline Real compute_gap_lower_bound(const StepOf *step, int joint, Real begin, Real end, Real rate_begin,
-    Real rate_end)
+static inline Real compute_gap_lower_bound(const StepOf *step, int joint, Real value_begin, Real value_end,
+    Real rate_begin, Real rate_end)
 {
     const Real min_rate = real_min(step->gap_rate_range[joint][0], real_min(rate_begin, rate_end)),
         max_rate = real_max(step->gap_rate_range[joint][1], real_max(rate_begin, rate_end));
-    const Real smallest = real_min(step->min_event_value[joint], real_min(begin, end));
+    const Real smallest = real_min(step->min_event_value[joint], real_min(value_begin, value_end));
     return smallest - QUARTER_STAGE_DISTANCE * step->h * (max_rate - min_rate) * CURVATURE_SAFETY / 2.0;
 }

@@ -82,8 +82,8 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
 }
 
 /*
- * Compute the parameters p from the values that are specified, in SI units: given_values[k] where is_given[k] is 1,
- * defaults where it is 0.
+ * Compute the parameters p from the values that are specified, in SI units: given_values[k] where is_given[k] is 1, its
+ * default value or derived expression where it is 0.
  */
 void gudgeon_prepare(const double *given_values, const unsigned char *is_given, double *p)
 {
@@ -91,8 +91,9 @@ void gudgeon_prepare(const double *given_values, const unsigned char *is_given, 
 }
 
 /*
- * Compute the parameters p of n_runs runs; each has a row of n_values values in `given_values`, and in `is_given`
- * whether each is specified.
+ * Compute the parameters p of n_runs runs, as gudgeon_prepare() does for one: specified values, and default values or
+ * derived expressions for the others. given_values, is_given (n_runs x n_values): the values in SI units, and whether
+ * each is specified. p (n_runs): one struct Parameters per run.
  */
 void gudgeon_prepare_runs(long n_runs, long n_values, const double *given_values, const unsigned char *is_given,
     double *p)
@@ -121,9 +122,11 @@ static int is_relation_satisfied(const ParameterTable *table, const long *relati
 }
 
 /*
- * Compute the parameters p of a run and p_motion of its motion from the `values` of a call, or only check those in p if
- * `values` is NULL. If p_motion is p, both have the same. Return whether all are valid: values are zero or normal, and
- * parameters are within their limits and satisfy the relations of the file.
+ * Compute the parameters p of a prepared run, and p_motion of its motion, from the `values` of a call; other parameters
+ * keep the values in table->given_values, their defaults or derived expressions. If p_motion is p, both have the same.
+ * If `values` is NULL, only those in p are checked. Return whether all are valid: `values` are zero or normal numbers,
+ * and parameters are within their limits and satisfy the relations of the file. At the first value that is not normal,
+ * 0 is returned and p is not computed.
  */
 int gudgeon_set_parameters(const ParameterTable *table, const double *values, double *p, double *p_motion)
 {
@@ -175,8 +178,9 @@ void gudgeon_gamma(double t, const double *q, const double *v, const double *p, 
 }
 
 /*
- * Compute the values of a start from the parameters: guesses of coordinates (N_GUESS), set coordinates (N_SET) and set
- * rates (N_RATES). The latter two are followed by those of eccentricities of journals, if any are set.
+ * Compute the values of a start from the parameters: initial guesses of coordinates (N_GUESS), prescribed coordinates
+ * (N_SET) and prescribed velocities (N_RATES). In the last two arrays the prescribed eccentricities of journals and
+ * sliders, and their rates, are stored after those of coordinates (N_ECCENTRICITIES each).
  */
 void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates)
 {
@@ -216,8 +220,8 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *dis
 #ifdef WALLS
 /*
  * Sum the contact forces at the corners of each slider in a guide with play (WALLS of them) into `reaction`: force in
- * N, and moment
- * about the slider's point in N m. That point is the midpoint of the first and the last corner, which are opposite.
+ * N, and moment about the slider's point in N m. That point is the midpoint of the first and the last corner, which are
+ * opposite.
  */
 static void sum_corner_forces(const Clearance *corner_clearances, double *reaction)
 {

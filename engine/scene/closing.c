@@ -10,19 +10,19 @@
 enum { MAX_CLOSING_ITERATIONS = 60 };
 
 /*
- * Compute the residuals of the start into workspace->residual: -Phi (with the set eccentricities of journals), then the
- * differences from the set coordinates, each multiplied by its row scale. Return their Euclidean norm.
+ * Compute the residuals of the start into workspace->residual: -Phi (with the prescribed eccentricities of journals),
+ * then the differences from the prescribed coordinates, each multiplied by its row scale. Return their Euclidean norm.
  */
 static double compute_start_residuals(StartWorkspace *workspace, double t, const double *q, const Parameters *p)
 {
     double sum = 0.0;
     constraints(t, q, p, workspace->residual);
     for (int k = 0; k < N_ECCENTRICITIES; k++)
-        workspace->residual[eccentricity_row[k]] += workspace->set[N_SET + k];
+        workspace->residual[eccentricity_row[k]] += workspace->prescribed[N_SET + k];
     for (int r = 0; r < N_ALL_ROWS; r++)
         workspace->residual[r] = -workspace->residual[r];
     for (int i = 0; i < N_SET; i++)
-        workspace->residual[N_ALL_ROWS + i] = workspace->set[i] - q[set_coordinate[i]];
+        workspace->residual[N_ALL_ROWS + i] = workspace->prescribed[i] - q[set_coordinate[i]];
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
         workspace->residual[r] *= workspace->row_scale[r];
         sum += workspace->residual[r] * workspace->residual[r];
@@ -31,8 +31,8 @@ static double compute_start_residuals(StartWorkspace *workspace, double t, const
 }
 
 /*
- * Compute the linearized equations workspace->row (Phi_q, then the set coordinates), multiplied by row and column
- * scales, and the residuals. Return the norm of the residuals.
+ * Compute the linearized equations workspace->row (Phi_q, then the prescribed coordinates), multiplied by row and
+ * column scales, and the residuals. Return the norm of the residuals.
  */
 OPTIMIZE_SIZE static double linearize_start_equations(
     StartWorkspace *workspace, double t, const double *q, const Parameters *p)
@@ -95,8 +95,8 @@ static int are_residuals_rounding(const StartWorkspace *workspace, double residu
 
 /*
  * Return whether Newton's steps converge to a configuration that is no nearer to the guess than the nearest known one,
- * workspace->nearest. remaining_fraction: the fraction of the residuals that the last step left; the following steps
- * are smaller by as much. Return 0 if it is 0.1 or more: slow convergence is inconclusive.
+ * workspace->max_squared_distance. remaining_fraction: the fraction of the residuals that the last step left; the
+ * following steps are smaller by as much. Return 0 if it is 0.1 or more: slow convergence is inconclusive.
  */
 static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double *q, double remaining_fraction)
 {
@@ -109,7 +109,8 @@ static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double 
         distance_squared += scaled * scaled;
     }
     return remaining_fraction < 0.1
-        && sqrt(distance_squared) - 4.0 * remaining_fraction * sqrt(step_squared) > sqrt(workspace->nearest);
+        && sqrt(distance_squared) - 4.0 * remaining_fraction * sqrt(step_squared)
+            > sqrt(workspace->max_squared_distance);
 }
 
 /*

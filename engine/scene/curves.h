@@ -207,7 +207,7 @@ static inline void compute_curve_bounds(
     const Curve *curve_table, int order, double branch, double x_lower, double x_upper, double *lower, double *upper)
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces], length = last - first;
-    const double turns = curve_table->is_periodic ? length * floor((x_lower - first) / length) : 0.0;
+    const double period_offset = curve_table->is_periodic ? length * floor((x_lower - first) / length) : 0.0;
     *lower = INFINITY;
     *upper = -INFINITY;
     if (!curve_table->is_periodic)
@@ -215,10 +215,10 @@ static inline void compute_curve_bounds(
     else if (!(x_upper - x_lower < length))
         extend_bounds_by_curve(curve_table, order, branch, first, last, lower, upper);
     else {
-        extend_bounds_by_curve(curve_table, order, branch, x_lower - turns, min_of(x_upper - turns, last), lower,
-            upper);
-        if (x_upper - turns > last)
-            extend_bounds_by_curve(curve_table, order, branch, first, x_upper - turns - length, lower, upper);
+        extend_bounds_by_curve(curve_table, order, branch, x_lower - period_offset,
+            min_of(x_upper - period_offset, last), lower, upper);
+        if (x_upper - period_offset > last)
+            extend_bounds_by_curve(curve_table, order, branch, first, x_upper - period_offset - length, lower, upper);
     }
 }
 

@@ -66,7 +66,8 @@ int compute_loop_step(double t, const double *q, const DiscreteState *discrete, 
 int compute_loop_rates(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v);
 int compute_third_loop_rates(
     double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p, double *out);
-void loop_switches(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *g);
+void evaluate_loop_switching_functions(
+    double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *g);
 /*
  * get_loop_step_scale: factor that makes a step of coordinate k dimensionless.
  * turn_directions: directions in q after a step.
@@ -86,7 +87,7 @@ void convert_integrated_to_absolute(double t, const double *y, const DiscreteSta
 void convert_absolute_to_integrated(double t, const double *absolute_state, DiscreteState *discrete,
     const Parameters *p, double *y);
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *worst);
+    double *residual);
 /*
  * Rates and steps at the state itself, without continuation; NEAR_SINGULAR: the motion is to be continued from both
  * sides.
@@ -94,8 +95,8 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
 int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 /* Contacts of joints with play at a state: gaps, their rates, forces of laws. */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs);
-int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
-    double *worst);
+int compute_projection_step(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq,
+    double *dv, double *residual);
 /*
  * Accept a state, with `rhs` of compute_motion_rates() there: update the maxima of |Phi| and |Phi_dot|; follow driven
  * loops from it.
@@ -111,9 +112,9 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
     const RhsOutputs *rhs, Linear *lin);
 void linearize(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     const double *a, const RhsOutputs *rhs, Linear *lin);
-/* One Newton step dq, dv of the projection onto the constraints, to be subtracted; *worst: the largest |Phi|. */
-int closing_step(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
-    double *dq, double *dv, double *worst);
+/* One Newton step dq, dv of the projection onto the constraints, to be subtracted; *residual: the largest |Phi|. */
+int compute_closure_step(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *dq, double *dv, double *residual);
 int newton_factor(double eta, Linear *lin);
 void newton_substitute(const Linear *lin, double *x);
 void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u);
@@ -125,9 +126,9 @@ void newton_solve_complex(const ComplexLinear *lin, double eta, double eta_i, co
 #else
 /* Kinematic positions: a step of Newton's method, and velocities and accelerations at its end. */
 #if POSITIONS_IN_TREE
-int close_step(double t, const double *q, const Parameters *p, double *step, double *rates, double *worst);
+int close_step(double t, const double *q, const Parameters *p, double *step, double *rates, double *residual);
 int compute_body_motion(double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
-    double *all_v, double *all_a, double *worst);
+    double *all_v, double *all_a, double *residual);
 #else
 int project(double t, const double *q, const double *r, const Parameters *p, double *x);
 #endif
@@ -140,8 +141,8 @@ int solve_dependent_equations(double t, const double *q, const Parameters *p, co
 int solve_by_absolute_equations(double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs);
 /* Factorization and solution of a small dense block (block.c). */
-int factor_block(int n, double *A, int *order);
-void solve_block(int n, const double *A, const int *order, double *x);
+int factor_block(int n, double *A, int *pivot_rows);
+void solve_block(int n, const double *A, const int *pivot_rows, double *x);
 
 /* For the audit (audit_samples.c). */
 /*

@@ -125,7 +125,8 @@ static inline double branch_of(const double *branch, double *g, int switch_index
 
 /*
  * Rotate the unit vector direction[2], cosine and sine of an angle, back by a small angle (at most MAX_SERIES_ANGLE,
- * rad), by series.
+ * rad), by series. Called by emitted code (driven_loops.c): a Newton correction of an angle that is stored as a
+ * direction is subtracted.
  */
 static inline void rotate_back_by_small_angle(double *direction, double angle)
 {

@@ -24,16 +24,16 @@ typedef struct {
 } EquationSystem;
 
 /* Workspace of a start: linearized equations with residuals (columns divided by weights), a normal matrix (upper half)
- * and the reciprocal diagonal of its factor, guess and set values, patterns. */
+ * and the reciprocal diagonal of its factor, guess and prescribed values, patterns. */
 typedef struct {
     double size, radius, weight[N_Q], step[N_Q], reference[N_Q];
     double first_solution[N_Q], mirrored[N_Q], trial[N_Q];
-    double guess[N_GUESS + 1], set[N_SET + N_ECCENTRICITIES + 1], rates[N_RATES + N_ECCENTRICITIES + 1];
+    double guess[N_GUESS + 1], prescribed[N_SET + N_ECCENTRICITIES + 1], rates[N_RATES + N_ECCENTRICITIES + 1];
     double row[N_START_ROWS + 1][N_Q], residual[N_START_ROWS + 1], row_scale[N_START_ROWS + 1], column_scale[N_Q];
     double normal[N_NORMAL + 1][N_NORMAL + 1], inverse_pivot[N_NORMAL + 1], rhs[N_NORMAL + 1];
     unsigned char pattern[N_NORMAL + 1][N_NORMAL + 1];
     EquationSystem first_step, all, subset;
-    double nearest; /* squared distance from the guess that a configuration must improve on */
+    double max_squared_distance; /* squared distance from the guess that a configuration must improve on */
     int dependent;  /* whether dependent equations are left out: the residuals show if they do not close */
     Cancellation *cancellation;
 } StartWorkspace;

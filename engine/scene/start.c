@@ -31,13 +31,16 @@ static double compute_search_radius(StartWorkspace *workspace, double t, const P
 }
 
 /*
- * Initialize the workspace of a start from the parameters: guess and set values, weights of coordinates, scales of
- * columns and rows. They are those of the search in Python. Angles without a guess weigh 1e-2, positions 1e-4 over the
- * size; guessed ones 1 and 1 over the size.
+ * Initialize the workspace of a start from the parameters: guess, prescribed coordinates and rates, weights of
+ * coordinates, scales of columns and rows. They are those of the search in Python. workspace->size must be set before.
+ *   Weights: 1e-2 of an angle without a guess, 1e-4/size of a position; 1 and 1/size of guessed ones. If the guess
+ *     consists of points (GUESSED_POINTS), no coordinate counts as guessed.
+ *   Scales: 1/weight of a column; 1/size of a row in m, 1 of a row in rad.
+ *   max_squared_distance: infinite, no closed configuration is known.
  */
 static void initialize_start_workspace(StartWorkspace *workspace, const Parameters *p)
 {
-    start_values(p, workspace->guess, workspace->set, workspace->rates);
+    start_values(p, workspace->guess, workspace->prescribed, workspace->rates);
     for (int k = 0; k < N_Q; k++)
         workspace->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / workspace->size;
     for (int i = 0; i < N_GUESS && !GUESSED_POINTS; i++)
@@ -49,13 +52,13 @@ static void initialize_start_workspace(StartWorkspace *workspace, const Paramete
             : set_coordinate[equation - N_ALL_ROWS] % 3 != 2;
         workspace->row_scale[equation] = is_length ? 1.0 / workspace->size : 1.0;
     }
-    workspace->nearest = INFINITY;
+    workspace->max_squared_distance = INFINITY;
 }
 
 /*
- * Initialize the workspace and set q to the guess and the set coordinates (others 0), with the angles that equations
- * without positions determine. Store q as reference of distances, and the search radius. Return 1 if those equations
- * depend on each other, else 0.
+ * Initialize the workspace and set q to the guess and the prescribed coordinates (others 0), with the angles that
+ * equations without positions determine. Store q as reference of distances, and the search radius. Return 1 if those
+ * equations depend on each other, else 0.
  */
 static int initialize_guess(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -65,7 +68,7 @@ static int initialize_guess(StartWorkspace *workspace, double t, const Parameter
     for (int i = 0; i < N_GUESS; i++)
         q[guess_coordinate[i]] = workspace->guess[i];
     for (int i = 0; i < N_SET; i++)
-        q[set_coordinate[i]] = workspace->set[i];
+        q[set_coordinate[i]] = workspace->prescribed[i];
     if (solve_independent_angles(workspace, t, p, q))
         return 1;
     for (int k = 0; k < N_Q; k++)
@@ -121,8 +124,8 @@ static int remove_full_turns(StartWorkspace *workspace, double t, const Paramete
 
 /*
  * Replace q by the nearest to the guess of three closed configurations: q, the one with guessed coordinates mirrored at
- * the guess, and the one with all coordinates mirrored; set coordinates keep their values. q stays if its change from
- * the guess is below MIN_MIRRORED_CHANGE. A mirrored configuration is closed anew and reduced by full turns. It is
+ * the guess, and the one with all coordinates mirrored; prescribed coordinates keep their values. q stays if its change
+ * from the guess is below MIN_MIRRORED_CHANGE. A mirrored configuration is closed anew and reduced by full turns. It is
  * taken only if its distance is smaller by the fraction MIN_DISTANCE_REDUCTION; it is omitted if it does not close or
  * leaves the bounds. Called after a configuration is closed.
  */
@@ -135,19 +138,20 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
         workspace->mirrored[k] = 2.0 * workspace->reference[k] - q[k];
     }
     for (int mirrors_all = 0; mirrors_all < 2; mirrors_all++) {
-        workspace->nearest = (1.0 - MIN_DISTANCE_REDUCTION) * (1.0 - MIN_DISTANCE_REDUCTION)
+        workspace->max_squared_distance = (1.0 - MIN_DISTANCE_REDUCTION) * (1.0 - MIN_DISTANCE_REDUCTION)
             * compute_squared_distance_from_guess(workspace, q);
         for (int k = 0; k < N_Q; k++)
             workspace->trial[k] = mirrors_all ? workspace->mirrored[k] : workspace->first_solution[k];
         for (int i = 0; i < N_GUESS; i++)
             workspace->trial[guess_coordinate[i]] = workspace->mirrored[guess_coordinate[i]];
         for (int i = 0; i < N_SET; i++)
-            workspace->trial[set_coordinate[i]] = workspace->set[i];
+            workspace->trial[set_coordinate[i]] = workspace->prescribed[i];
         if (solve_independent_angles(workspace, t, p, workspace->trial)
             || solve_closure(workspace, t, p, workspace->trial)
             || !are_translations_bounded(workspace, workspace->trial)
             || remove_full_turns(workspace, t, p, workspace->trial)
-                || !(compute_squared_distance_from_guess(workspace, workspace->trial) < workspace->nearest))
+            || !(compute_squared_distance_from_guess(workspace, workspace->trial)
+                < workspace->max_squared_distance))
             continue;
         for (int k = 0; k < N_Q; k++)
             q[k] = workspace->trial[k];
@@ -169,8 +173,8 @@ static void compute_metric_scaling(const StartWorkspace *workspace, const Parame
 }
 
 /*
- * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, of minimum norm in the metric M, refined
- * twice. At a jump of a drive, nu is the right limit. Return 1 if the equations depend on each other or are not
+ * Compute the velocities v that satisfy Phi_q v = nu and the prescribed rates at q, of minimum norm in the metric M,
+ * refined twice. At a jump of a drive, nu is the right limit. Return 1 if the equations depend on each other or are not
  * satisfied to 1e-10, else 0.
  */
 OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, double t, const Parameters *p,
@@ -220,10 +224,10 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
 
 /*
  * Compute the start nearest to the guess that the parameters contain. Outputs: coordinates q and velocities v (N_Q
- * each), and *residual, the largest |Phi| or deviation from a set coordinate reached, m or rad. t: time, s; size: of
- * the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from the guess
- * (compute_change_from_guess() of 1 or more) or out of bounds, has no velocities, was cancelled, guesses points, or
- * memory is short. Called for each run of a batch.
+ * each), and *residual, the largest |Phi| or deviation from a prescribed coordinate reached, m or rad. t: time, s;
+ * size: of the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from
+ * the guess (compute_change_from_guess() of 1 or more) or out of bounds, has no velocities, was cancelled, guesses
+ * points, or memory is short. Called for each run of a batch.
  */
 int compute_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
@@ -253,7 +257,7 @@ int compute_start(
 
 /*
  * Compute the start nearest to the guess that the parameters contain, by compute_start() without cancellation. Outputs:
- * coordinates q and velocities v (N_Q each), and *residual, the largest |Phi| or deviation from a set coordinate
+ * coordinates q and velocities v (N_Q each), and *residual, the largest |Phi| or deviation from a prescribed coordinate
  * reached, m or rad. t: time, s; size: of the mechanism, m. Return 0, or 1 if the search in Python must decide: the
  * start does not close, is far from the guess, has no velocities, guesses points, or memory is short.
  */

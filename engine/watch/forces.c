@@ -97,7 +97,7 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
  */
 static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
-    Interval term[N_TERMS], term_low[N_TERMS], term_middle[N_TERMS], term_high[N_TERMS];
+    Interval term[N_TERMS], terms_at_begin[N_TERMS], term_middle[N_TERMS], terms_at_end[N_TERMS];
     const double width = end - begin;
     if (step->term_range[0] < 0.0) {
         bound_time_terms(step->t, step->h, 0.0, 1.0, p, term);
@@ -105,12 +105,12 @@ static int may_terms_oscillate_between(Step *step, double begin, double end, con
             step->term_range[k] = term[k].hi - term[k].lo;
     }
     bound_time_terms(step->t, step->h, begin, end, p, term);
-    bound_time_terms(step->t, step->h, begin, begin, p, term_low);
+    bound_time_terms(step->t, step->h, begin, begin, p, terms_at_begin);
     bound_time_terms(step->t, step->h, begin + 0.5 * width, begin + 0.5 * width, p, term_middle);
-    bound_time_terms(step->t, step->h, end, end, p, term_high);
+    bound_time_terms(step->t, step->h, end, end, p, terms_at_end);
     for (int k = 0; k < N_TERMS; k++) {
-        const double slope = term_high[k].lo - term_low[k].lo,
-            second_difference = fabs(term_low[k].lo - 2.0 * term_middle[k].lo + term_high[k].lo);
+        const double slope = terms_at_end[k].lo - terms_at_begin[k].lo,
+            second_difference = fabs(terms_at_begin[k].lo - 2.0 * term_middle[k].lo + terms_at_end[k].lo);
         const double excess = max_of(width * term[k].max_slope - slope, slope - width * term[k].min_slope)
             - 2.0 * second_difference;
         if (!(excess <= MAX_TERM_EXCESS * step->term_range[k]))
@@ -205,14 +205,15 @@ static double evaluate_parabola(Sample begin, Sample middle, Sample end, double 
 }
 
 /*
- * Return the minimum, between begin and end of a part, of the parabola through the samples there and in the middle.
- * *steepest_slope: its largest slope there, per fraction of the step.
+ * Return the minimum, between begin and end of a part, of the parabola through three equally spaced samples: there and
+ * in the middle. *max_slope: the largest signed slope of the parabola in the part, per fraction of the step; the
+ * parabola falls over the whole part if it is negative.
  */
-static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *steepest_slope)
+static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *max_slope)
 {
     const double slope = 0.5 * (end.f - begin.f), curvature = begin.f - 2.0 * middle.f + end.f, x = -slope / curvature;
     const double minimum = min_of(begin.f, min_of(middle.f, end.f));
-    *steepest_slope = 2.0 * (slope + fabs(curvature)) / (end.s - begin.s);
+    *max_slope = 2.0 * (slope + fabs(curvature)) / (end.s - begin.s);
     return curvature > 0.0 && fabs(x) < 1.0 ? min_of(minimum, middle.f + 0.5 * slope * x) : minimum;
 }
 
@@ -251,13 +252,13 @@ static int bracket_force_zero(Integrator *run, Step *step, int event, const Para
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart current = parts[n - 1];
         const double width = current.end.s - from.s;
-        double steepest;
+        double max_slope;
         allowance = from.f > allowance ? 0.0 : allowance;
-        const double lower_bound = find_parabola_minimum(from, current.middle, current.end, &steepest) - current.error;
+        const double lower_bound = find_parabola_minimum(from, current.middle, current.end, &max_slope) - current.error;
         const int is_negative = current.middle.f < -allowance || current.end.f < -allowance;
         const int is_small = width < min_width || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES;
         largest = max_of(largest, max_of(fabs(current.middle.f), fabs(current.end.f)));
-        if (is_negative && (is_small || steepest + 4.0 * current.error / width < 0.0)) {
+        if (is_negative && (is_small || max_slope + 4.0 * current.error / width < 0.0)) {
             *low = from;
             *high = current.middle.f < -allowance ? current.middle : current.end;
             return 1;

@@ -26,13 +26,15 @@ typedef struct {
 } IntervalPart;
 
 /*
- * Return the part [begin, end] of an interval with the excess of a term over its values at two nodes: max_excess of the
- * term that may exceed them most by its bounds, and middle_excess of that term in the middle. begin, end: fractions of
- * the interval of length h (s) from t (s) on; term_low, term_high: terms at the nodes; allowed_excess: of each term.
- * Called for each part that find_undersampled_fraction() bisects.
+ * Return the part [begin, end] of an interval with bounds of the excess of a term over its values at both nodes of the
+ * interval. max_excess: the largest excess that the bounds of any term allow; middle_excess: that of the same term in
+ * the middle of the part. Both are 0 if no term may exceed its values at the nodes by more than allowed_excess. begin,
+ * end: fractions of the interval of length h (s) from t (s) on; terms_at_begin, terms_at_end (N_TERMS): values of the
+ * terms at the left and the right node, with equal bounds lo and hi; allowed_excess: of each term. Called for each part
+ * that find_undersampled_fraction() bisects.
  */
-static IntervalPart build_interval_part(double t, double h, double begin, double end, const Interval *term_low,
-    const Interval *term_high,
+static IntervalPart bound_interval_part(double t, double h, double begin, double end, const Interval *terms_at_begin,
+    const Interval *terms_at_end,
     const double *allowed_excess, const Parameters *p)
 {
     IntervalPart part = {begin, end, 0.0, 0.0};
@@ -40,8 +42,8 @@ static IntervalPart build_interval_part(double t, double h, double begin, double
     bound_time_terms(t, h, begin, end, p, bound);
     bound_time_terms(t, h, 0.5 * (begin + end), 0.5 * (begin + end), p, middle);
     for (int k = 0; k < N_TRANSIENTS; k++) {
-        const double lower = min_of(term_low[k].lo, term_high[k].lo) - allowed_excess[k],
-            upper = max_of(term_low[k].lo, term_high[k].lo) + allowed_excess[k];
+        const double lower = min_of(terms_at_begin[k].lo, terms_at_end[k].lo) - allowed_excess[k],
+            upper = max_of(terms_at_begin[k].lo, terms_at_end[k].lo) + allowed_excess[k];
         const double excess = max_of(bound[k].hi - upper, lower - bound[k].lo);
         if (excess > part.max_excess) {
             part.max_excess = excess;
@@ -67,19 +69,19 @@ static int are_terms_monotone(double t, double h, double begin, double end, cons
 
 /*
  * Return a fraction between two neighbouring nodes at which a term of time acts and the step is not accurate; 0: none.
- * begin, end: the nodes; term_low, term_high: terms there; allowed_excess: of each term. The part with the largest
- * excess is bisected first, until half of that excess is certain, or the part is as small as allowed. There
- * is_accurate(context, middle, is_certain) is called. Return 0 after MAX_ACCURACY_TESTS calls, if no part has an
- * excess, and for monotone terms.
+ * begin, end: the nodes; terms_at_begin, terms_at_end: values of the terms there; allowed_excess: of each term. The
+ * part with the largest excess is bisected first, until half of that excess is certain, or the part is as small as
+ * allowed. There is_accurate(context, middle, is_certain) is called. Return 0 after MAX_ACCURACY_TESTS calls, if no
+ * part has an excess, and for monotone terms.
  */
-static double find_undersampled_fraction(double t, double h, double begin, double end, const Interval *term_low,
-    const Interval *term_high,
+static double find_undersampled_fraction(double t, double h, double begin, double end, const Interval *terms_at_begin,
+    const Interval *terms_at_end,
     const double *allowed_excess, AccuracyTest *is_accurate, void *context, const Parameters *p)
 {
     IntervalPart parts[MAX_INTERVAL_PARTS + 1];
     int n = 0, n_tests = 0;
     if (!are_terms_monotone(t, h, begin, end, p))
-        parts[n++] = build_interval_part(t, h, begin, end, term_low, term_high, allowed_excess, p);
+        parts[n++] = bound_interval_part(t, h, begin, end, terms_at_begin, terms_at_end, allowed_excess, p);
     while (n > 0) {
         int k = 0;
         for (int i = 1; i < n; i++)
@@ -97,8 +99,8 @@ static double find_undersampled_fraction(double t, double h, double begin, doubl
         if (is_tested) {
             parts[k] = parts[--n];
         } else {
-            parts[k] = build_interval_part(t, h, part.begin, middle, term_low, term_high, allowed_excess, p);
-            parts[n++] = build_interval_part(t, h, middle, part.end, term_low, term_high, allowed_excess, p);
+            parts[k] = bound_interval_part(t, h, part.begin, middle, terms_at_begin, terms_at_end, allowed_excess, p);
+            parts[n++] = bound_interval_part(t, h, middle, part.end, terms_at_begin, terms_at_end, allowed_excess, p);
         }
     }
     return 0.0;

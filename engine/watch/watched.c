@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
     int is_known;
     double rounding[N_MONITORED], tolerance[N_MONITORED];
-    double whole_lower[N_MONITORED]; /* lower bound of the function over the whole step */
+    double lower_bound_of_step[N_MONITORED]; /* lower bound of the function over the whole step */
 } EventUncertainties;
 
 /*
@@ -91,7 +91,7 @@ static int is_zero_within_uncertainty(const EventUncertainties *uncertainties, i
     return fabs(value_begin) <= uncertainties->rounding[index] && fabs(value_end) <= uncertainties->rounding[index]
         && !bounds.may_be_undefined
         && (bounds.lo >= -uncertainties->tolerance[index]
-            || is_bound_narrowing(bounds.lo, width, uncertainties->whole_lower[index]));
+            || is_bound_narrowing(bounds.lo, width, uncertainties->lower_bound_of_step[index]));
 }
 
 /*
@@ -135,8 +135,9 @@ static void expand_dense_output(const Integrator *run, const Step *step, DensePo
 }
 
 /*
- * Compute bounds y (2 N_X) of coordinates and velocities, and of their slopes, over the fractions `begin` to `end` of a
- * step. The polynomial is shifted to the middle of the part, and each power is bounded by itself.
+ * Compute bounds y (2 N_X) of coordinates and velocities, and of their derivatives with respect to the fraction s of
+ * the step, over the fractions `begin` to `end` of a step. The polynomial is shifted to the middle of the part, and
+ * each power is bounded by itself.
  */
 static void bound_state(const DensePolynomial *polynomial, double begin, double end, Interval *y)
 {
@@ -160,8 +161,9 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
 
 #endif
 /*
- * Compute bounds (N_MONITORED) of all monitored event functions from bounds of time t and of the state y. Each is
- * multiplied by the frozen branch of its switching function, or by the stored sign of its user event.
+ * Compute bounds (N_MONITORED) of all monitored event functions, and of their derivatives with respect to the fraction
+ * s of the step, from such bounds of time t and of the state y. Each is multiplied by the frozen branch of its
+ * switching function, or by the stored sign of its user event.
  */
 static void bound_event_functions_over_box(const Integrator *run, Interval t, const Interval *y, const Parameters *p,
     Interval *bounds)
@@ -200,22 +202,25 @@ typedef struct {
     DensePolynomial powers;
     double values_begin[N_MONITORED];
     EventUncertainties uncertainties;
-} WatchedStep;
+} MonitoredStep;
 
 /*
- * Classify a monitored function over a part of length `width` up to the fraction `end`, as classify_zero() does: 1 a
- * zero, 0 none, -1 to be halved. index: of the function; bounds: over the part; *value_end: its value at the end, set
- * to 0 if it is below its uncertainty. A function that is held at zero has none. Parts over which a user-defined event
- * may be undefined are halved until its NaN is recorded. is_small: the part is not halved further.
+ * Classify a monitored function over a part of a step as classify_zero() does: 1 a zero, 0 none, -1 to be halved.
+ * index: of the function; bounds: over the part; end, width: fraction at the end of the part, and its length; is_small:
+ * the part is not halved further, also if the function may be undefined in it. *value_end: in: the value at the end;
+ * out: 0 if a zero was found but the value is below its rounding uncertainty. The part is then classified again with 0.
+ *
+ * A part that the bounds leave undecided has no zero if is_zero_within_uncertainty(), as for a function that
+ * constraints keep at zero. A part over which a user-defined event may be undefined is halved until its NaN is
+ * recorded. For the whole step (width 1) the lower bound is stored in search->uncertainties.
  */
-static int classify_event_function(WatchedStep *search, int index, Interval bounds, double end, double width,
-    int is_small,
-    double *value_end)
+static int classify_event_function(MonitoredStep *search, int index, Interval bounds, double end, double width,
+    int is_small, double *value_end)
 {
     const int event = monitored_event[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
     int result = classify_zero(bounds, search->values_begin[index], *value_end, width, is_small);
     if (width == 1.0)
-        search->uncertainties.whole_lower[index] = bounds.lo;
+        search->uncertainties.lower_bound_of_step[index] = bounds.lo;
     if (result > 0 && is_below_uncertainty(search->run, search->step, end, index, *value_end, search->p)) {
         *value_end = 0.0;
         result = classify_zero(bounds, search->values_begin[index], 0.0, width, is_small);
@@ -232,12 +237,12 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
 /*
  * Classify the part [begin, end] of a step, as the callback of bisect_interval(): 1 if a monitored function has its
  * first zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined
- * events that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved
+ * events that are NaN at the end of the part are recorded. context: a MonitoredStep; is_small: the part is not halved
  * further.
  */
 static int classify_event_functions(void *context, double begin, double end, int is_small)
 {
-    WatchedStep *search = context;
+    MonitoredStep *search = context;
     Integrator *run = search->run;
     Step *step = search->step;
     Interval bounds[N_MONITORED];
@@ -306,7 +311,7 @@ static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, Event
  */
 static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p)
 {
-    WatchedStep search = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
+    MonitoredStep search = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_MONITORED; i++)
         step->bracket_begin[i] = step->bracket_end[i] = 0.0;
 #if MONITORS_STATE

@@ -137,10 +137,10 @@ static inline double clamp_to_bracket(double guess, const Bracket *bracket)
 static inline double compute_allowed_overshoot(const Bracket *bracket, const ZeroTolerance *tolerance, double guess)
 {
     const double location = clamp_to_bracket(guess, bracket);
-    double steepest = 0.0;
+    double largest_slope = 0.0;
     for (int i = 0; i < bracket->n && tolerance->max_overshoot > 0.0; i++)
-        steepest = max_of(steepest, fabs(bracket->at[i].f / (bracket->at[i].s - location)));
-    return min_of(tolerance->max_overshoot, sqrt(tolerance->max_error / (tolerance->error_factor * steepest)));
+        largest_slope = max_of(largest_slope, fabs(bracket->at[i].f / (bracket->at[i].s - location)));
+    return min_of(tolerance->max_overshoot, sqrt(tolerance->max_error / (tolerance->error_factor * largest_slope)));
 }
 
 /*
@@ -239,12 +239,12 @@ static inline int classify_zero(Interval bounds, double value_begin, double valu
 /*
  * Return whether a lower bound over a fraction `width` of an interval is negative only because interval arithmetic
  * overestimates. It is if the bound has narrowed in proportion to the part (within a factor 4), as for a function
- * without a zero. whole_lower_bound: the lower bound over the whole interval. Parts longer than NARROWING_WIDTH return
- * 0.
+ * without a zero. lower_bound_of_interval: the lower bound over the whole interval. Parts longer than NARROWING_WIDTH
+ * return 0.
  */
-static inline int is_bound_narrowing(double lower_bound, double width, double whole_lower_bound)
+static inline int is_bound_narrowing(double lower_bound, double width, double lower_bound_of_interval)
 {
-    return width <= NARROWING_WIDTH && lower_bound >= 4.0 * width * whole_lower_bound;
+    return width <= NARROWING_WIDTH && lower_bound >= 4.0 * width * lower_bound_of_interval;
 }
 
 /*

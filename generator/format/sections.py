@@ -22,7 +22,7 @@ from gudgeon.generator.field import (
     Bound,
     Field,
     Kind,
-    declare_entry_name,
+    declare_reference,
     flag,
     mapping,
     number,
@@ -76,8 +76,8 @@ BEARING = record(
         required=True,
         bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
     ),
-    declare_entry_name("materials", "bearing_material", "material of the hole"),
-    declare_entry_name("materials", "journal_material", "material of the pin"),
+    declare_reference("materials", "bearing_material", "material of the hole"),
+    declare_reference("materials", "journal_material", "material of the pin"),
 )
 
 GUIDE = record(
@@ -115,8 +115,8 @@ GUIDE = record(
             Bound("<=", "half_height", "a corner's radius is at most half the slider's height"),
         ),
     ),
-    declare_entry_name("materials", "guide_material", "material of the slot"),
-    declare_entry_name("materials", "slider_material", "material of the slider"),
+    declare_reference("materials", "guide_material", "material of the slot"),
+    declare_reference("materials", "slider_material", "material of the slider"),
 )
 
 
@@ -230,7 +230,7 @@ SHAPE = record(
         DENSITY,
         bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
-    declare_entry_name("materials", "material", "material whose density is used; instead of `density`", required=False),
+    declare_reference("materials", "material", "material whose density is used; instead of `density`", required=False),
     number(
         "thickness",
         "thickness, together with density or material",
@@ -283,7 +283,7 @@ BODY = record(
 CONTACT = record(
     "contact",
     "laws of the forces between journal and bearing: a normal law, a film, or both",
-    declare_entry_name("contacts", "extends", "contact whose keys apply where this contact has none", required=False),
+    declare_reference("contacts", "extends", "contact whose keys apply where this contact has none", required=False),
     _make_law_field("normal", "law of the normal force"),
     _make_law_field("friction", "law of dry friction"),
     _make_law_field("film", "law of the oil film"),
@@ -371,18 +371,18 @@ SIMULATE = record(
 PLAY = record(
     "play",
     "play in a joint",
-    declare_entry_name(
+    declare_reference(
         "bearings",
         "bearing",
         "bearing with the dimensions of a revolute joint",
         False,
-        either="guide",
+        alternative_key="guide",
         otherwise="a guide",
     ),
-    declare_entry_name(
+    declare_reference(
         "guides", "guide", "guide with the dimensions of a translational joint", False, otherwise="a bearing"
     ),
-    declare_entry_name("contacts", "contact", "contact whose laws apply"),
+    declare_reference("contacts", "contact", "contact whose laws apply"),
     Field(
         "contour",
         DEPTHS,
@@ -403,7 +403,7 @@ _MATERIAL_ADDRESSES = (
 SCENE = record(
     "scene",
     "joints with play, and the parameters, materials, events, peaks and run settings of this scene",
-    declare_entry_name("scenes", "extends", "scene whose entries this scene inherits", required=False),
+    declare_reference("scenes", "extends", "scene whose entries this scene inherits", required=False),
     mapping("play", "joints with play", PLAY),
     mapping(
         "parameters", "values that replace those of the file in this scene", number("value", "the value here", None)
@@ -413,14 +413,14 @@ SCENE = record(
     mapping(
         "materials",
         "materials that replace those of the file in this scene",
-        declare_entry_name("materials", "value", "the material here"),
+        declare_reference("materials", "value", "the material here"),
         addresses=_MATERIAL_ADDRESSES,
     ),
     SIMULATE,
 )
 
 PLAY_START = record(
-    "apart",
+    "value",
     "initial position in a joint with play: for a journal in ground axes, for a slider in its guide",
     vector("e", "eccentricity vector from the bearing's centre to the journal's", LENGTH, otherwise="none"),
     vector("rate", "rate of the eccentricity", VELOCITY, otherwise="none"),
@@ -455,7 +455,7 @@ MECHANISM_FILE = record(
     "file",
     "a mechanism",
     Field("format", WORD, "version of this format", values=(FORMAT,), required=True),
-    declare_entry_name("", "name", "name of the mechanism"),
+    declare_reference("", "name", "name of the mechanism"),
     Field("title", TEXT, "title of the mechanism, one line", otherwise="the name"),
     vector("gravity", "acceleration of gravity, in ground axes", ACCELERATION, otherwise="none"),
     mapping("parameters", "parameters by name, which every expression may use", number("value", "the number", None)),

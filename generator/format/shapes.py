@@ -149,7 +149,9 @@ def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_StructureErro
             yield _StructureError(path, "three points of the body: [P, Q, R]")
     elif not isinstance(node, Map):
         needed = ", ".join(
-            f"{inner_field.name}: …" for inner_field in field.fields if inner_field.required or inner_field.either
+            f"{inner_field.name}: …"
+            for inner_field in field.fields
+            if inner_field.required or inner_field.alternative_key
         )
         yield _StructureError(path, f"a mapping: {{{needed}}}" if path and needed else "a mapping")
     elif field.kind == RECORD:

@@ -34,10 +34,11 @@ class Branch(Instruction):
     comment: str = ""
 
     @property
-    def branch(self) -> sp.Expr:
-        """Return the symbol of the active branch, the frozen sign of the switching function.
+    def active_branch(self) -> sp.Expr:
+        """Return the symbol of the active branch: the sign of the switching function, frozen over a step.
 
-        It chooses `then` (not below zero) or `otherwise` (below zero).
+        It selects `value_above` (sign not negative) or `value_below` (negative). It is the first argument of the
+        `Select` in `value`.
         """
         return self.value.args[0]
 

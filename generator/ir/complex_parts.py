@@ -16,7 +16,7 @@ from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, remove_
 from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Instruction, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.storage import Key, PlaceSymbol, StorageLocation, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, StoredSymbol, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 SUFFIX, IMAGINARY = "_complex", "_i"
@@ -29,7 +29,8 @@ def convert_to_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_argum
 
     `complex_arrays`: names of the arguments and arrays, or their storage locations, that are complex. `zero_arguments`:
     names of arguments that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that
-    has no complex counterpart.
+    has no complex counterpart. Used for the kernels that factorize and solve Newton's matrix of the Radau methods at a
+    complex eigenvalue (solvers/newton.py).
     """
     return _ComplexConverter(kernel, frozenset(complex_arrays), frozenset(zero_arguments)).convert_kernel()
 
@@ -177,7 +178,7 @@ class _ComplexConverter:
         """
         name = symbol.name
         if places := self._split_storage_location(find_value_key(symbol)):
-            return PlaceSymbol(places[0]), PlaceSymbol(places[1])
+            return StoredSymbol(places[0]), StoredSymbol(places[1])
         return (
             (symbol, sp.Symbol(name + IMAGINARY)) if name in self.complex_locals or name in self.complex_keys else None
         )

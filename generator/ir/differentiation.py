@@ -85,7 +85,7 @@ class Tangents:
             self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
             if symbol in self._symbols.derivative_rules:
                 self.store_tangent(symbol, self.apply_chain_rule(self._symbols.derivative_rules[symbol]))
-            elif symbol in self._symbols.definitions and not self._symbols.info[symbol].place:
+            elif symbol in self._symbols.definitions and not self._symbols.info[symbol].storage_location:
                 self.store_tangent(symbol, self.compute_gradient(self._symbols.definitions[symbol], symbol))
         return self._known[symbol]
 

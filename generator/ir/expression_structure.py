@@ -1,4 +1,7 @@
-"""Structure of an expression: everything that determines its printed code except the names of its symbols."""
+"""Structure of an expression: a canonical form up to the renaming of its symbols (structural hash).
+
+The structure is everything that determines the printed code of an expression except the names of its symbols.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from itertools import count
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import find_operation_classes
-from gudgeon.generator.symbols.storage import Key, PlaceSymbol, find_value_key
+from gudgeon.generator.symbols.storage import Key, StoredSymbol, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 from gudgeon.generator.symbols.unevaluated import Unevaluated, UnevaluatedQuotient
 
@@ -21,18 +24,18 @@ _new_numbers = count()
 
 @lru_cache(1_000_000)
 def find_expression_structure(expression: sp.Basic) -> tuple[int, tuple[Key, ...]] | None:
-    """Return (number of the structure, keys of its symbols in the order of the first occurrence).
+    """Return (number that only expressions of equal structure share, keys of the symbols by their first occurrence).
 
     Expressions of equal structure have the same text but for the texts of their symbols: the structure contains the
     order of the symbols' names, by which terms and factors are ordered. None for operations whose text depends on more.
-    Results are cached.
+    Results are cached. Used to print, or to count the operations of, expressions of equal structure only once.
     """
     if not find_operation_classes(expression) <= _PLAIN_OPERATIONS:
         return None
     number_by_symbol: dict[sp.Basic, int] = {}
     structure = _describe_expression(expression, number_by_symbol)
     symbols = tuple(number_by_symbol)
-    if not all(type(symbol) in (sp.Symbol, PlaceSymbol) for symbol in symbols):
+    if not all(type(symbol) in (sp.Symbol, StoredSymbol) for symbol in symbols):
         return None
     order = tuple(sorted(range(len(symbols)), key=lambda k: symbols[k].name))
     number = _number_by_structure.setdefault((structure, order), next(_new_numbers))

@@ -127,9 +127,10 @@ def make_finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> 
 
 
 def has_root_of_squares(expression: sp.Expr, symbol: sp.Symbol) -> bool:
-    """Return whether an expression contains a root of a sum of squares that depends on `symbol`.
+    """Return whether an expression contains a power (sum of squares)**a with a > 0, not an integer, of `symbol`.
 
-    Other fractional powers count too. The derivative of such a root is 0/0 where the sum vanishes.
+    An example is √(x² + 2 y²). Each term of the sum is a positive number times even powers, and one term depends on
+    `symbol`. The derivative of such a root is 0/0 where the sum vanishes.
     """
     return any(
         power.exp.is_number

@@ -258,7 +258,7 @@ class KernelBuilder:
         expressions = [x for line in lines for x in line.expressions]
         definitions, inputs = self._list_definitions_and_inputs(expressions, declared)
         symbol_info = self._symbols.info
-        inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].place)]
+        inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].storage_location)]
         structs = (PARAMETERS, LINEARIZATION)
         groups = {
             struct: [
@@ -305,10 +305,10 @@ class KernelBuilder:
             if symbol in found or symbol.name in declared_names or symbol not in info:
                 continue
             found.add(symbol)
-            if not info[symbol].place:
+            if not info[symbol].storage_location:
                 pending.extend(find_symbols(definitions[symbol]))
         ordered = [symbol for symbol in info if symbol in found]
-        return [s for s in ordered if not info[s].place], [s for s in ordered if info[s].place]
+        return [s for s in ordered if not info[s].storage_location], [s for s in ordered if info[s].storage_location]
 
 
 def _prune_sections(sections: Iterable[tuple[str, Sequence[Instruction]]]) -> list[tuple[str, list[Instruction]]]:

@@ -14,7 +14,7 @@ import sympy as sp
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.symbols.parameter_table import ParameterTable
-from gudgeon.generator.symbols.storage import PlaceSymbol
+from gudgeon.generator.symbols.storage import StoredSymbol
 
 
 def is_division(expression: sp.Basic) -> bool:
@@ -24,8 +24,8 @@ def is_division(expression: sp.Basic) -> bool:
 
 def find_base_name(power: sp.Basic) -> str:
     """Return the name of the base x of a power: its symbol or struct member, or "sum" for other expressions."""
-    if isinstance(power.base, PlaceSymbol):
-        return power.base.place.member
+    if isinstance(power.base, StoredSymbol):
+        return power.base.storage_location.member
     return power.base.name if power.base.is_Symbol else "sum"
 
 

@@ -55,7 +55,7 @@ from gudgeon.generator.ir.statements import (
     Statement,
     Status,
 )
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation, find_value_key
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol, find_value_key
 
 SectionLine = tuple[str, Instruction]  # a line and its section's title
 
@@ -192,7 +192,7 @@ def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[SectionLin
                 name = "".join(
                     character if character.isalnum() else "_" for character in str(stored_place).replace(".", "__")
                 ).strip("_")
-                symbol_of_place[PlaceSymbol(stored_place)] = sp.Symbol(name, real=True)
+                symbol_of_place[StoredSymbol(stored_place)] = sp.Symbol(name, real=True)
                 line = replace(line, target=name)
                 if place := find_place(stored_place):
                     lines.append((section.title, line))

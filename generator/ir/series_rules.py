@@ -14,7 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.statements import Instruction
 from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivative
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k
 ORDER, INVERSE_ORDER = sp.Symbol("k", real=True), sp.Symbol("share", real=True)  # k, 1/k
@@ -283,7 +283,7 @@ class Rules(ABC):
         """Return the symbol of 1/b_0, b_0 the coefficient of order 0 of b, and have it stored for all higher orders."""
         name = f"{b.name}_inverse"
         self.inverses[name] = b
-        return PlaceSymbol(StorageLocation(VALUES)[name])
+        return StoredSymbol(StorageLocation(VALUES)[name])
 
     def integrate_product(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
         """Return order k > 0 of the series c with c' = u' w: u_k w_0 + (1/k) Σ j u_j w_{k-j}, j from 1 to k − 1."""
@@ -305,7 +305,7 @@ class Rules(ABC):
         factors = (left, right) if (left.name, left.rate) <= (right.name, right.rate) else (right, left)
         name = "__".join(f"{factor.name}{'_rate' * factor.rate}" for factor in factors)
         product = self.products.setdefault(factors, Product(name, *factors))
-        return PlaceSymbol(StorageLocation(SUMS)[product.name])
+        return StoredSymbol(StorageLocation(SUMS)[product.name])
 
     def postpone_square_definition(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
         """Return a new symbol for the square of the local that is being defined.
@@ -319,7 +319,7 @@ class Rules(ABC):
 
 def make_order_zero_symbol(symbol: sp.Symbol) -> sp.Symbol:
     """Return the symbol of the coefficient of order 0 of a local, as higher orders read it."""
-    return PlaceSymbol(StorageLocation(VALUES)[symbol.name])
+    return StoredSymbol(StorageLocation(VALUES)[symbol.name])
 
 
 def _expand_angle(rules: Rules, y: sp.Symbol, x: sp.Symbol, symbol_of_angle: sp.Symbol) -> sp.Expr:

@@ -13,7 +13,7 @@ from typing import ClassVar, TypeAlias
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.symbols.switches import BranchOf, ComparedMagnitude
 
 Names = frozenset[str]
@@ -26,20 +26,23 @@ def find_read_names(value: sp.Basic) -> Names:
 
     A symbol of a place counts as the argument that contains it. Results are cached.
     """
-    names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in find_symbols(value))
+    names = frozenset(s.storage_location.base if isinstance(s, StoredSymbol) else s.name for s in find_symbols(value))
     return names | ({"branch", "g"} if BranchOf in find_operation_classes(value) else NO_NAMES)
 
 
 class Threshold(float):
-    """A number in a bound with the name under which every target writes it; C may read it from a `place` instead."""
+    """A number in a bound, with the name under which every target writes it.
+
+    C may read the number from `storage_location` instead.
+    """
 
     name: str
-    place: StorageLocation | None
+    storage_location: StorageLocation | None
 
-    def __new__(cls, name: str, value: float, place: StorageLocation | None = None) -> Threshold:
-        """Return the number `value`, named `name` in the text of every target; C may read it from `place` instead."""
+    def __new__(cls, name: str, value: float, storage_location: StorageLocation | None = None) -> Threshold:
+        """Return the number `value`, named `name` in the text of every target, and its `storage_location` for C."""
         threshold = super().__new__(cls, value)
-        threshold.name, threshold.place = name, place
+        threshold.name, threshold.storage_location = name, storage_location
         return threshold
 
 
@@ -64,7 +67,7 @@ class Test:
         """
         if self.is_relative_to_value:
             return NO_NAMES
-        return frozenset(x.place.base for x in self.bound if isinstance(x, Threshold) and x.place)
+        return frozenset(x.storage_location.base for x in self.bound if isinstance(x, Threshold) and x.storage_location)
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:

@@ -143,9 +143,9 @@ def _make_jacobian_kernel(model: Model) -> Kernel:
 def make_start_kernel(model: Model) -> Kernel:
     """Return the kernel that writes the values of the file's `start` to the arrays `guess`, `set` and `rates`.
 
-    `guess`: first values for the search of a position; `set`: prescribed coordinates; `rates`: prescribed velocities.
-    Eccentricities of journals follow the coordinates in `set`, their rates follow in `rates`; those of sliders have
-    the opposite sign.
+    `guess`: initial guesses of coordinates for the search of a position; `set`: prescribed coordinates, then the
+    prescribed eccentricities of journals and sliders; `rates`: prescribed velocities, then the rates of these
+    eccentricities. For sliders the negative values are stored.
     """
     builder = KernelBuilder(
         model.symbols,

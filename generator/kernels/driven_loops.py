@@ -28,7 +28,7 @@ from gudgeon.generator.ir.kernels import (
     remove_unused_locals,
 )
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
-from gudgeon.generator.ir.sine_pairs import vectorize_sines
+from gudgeon.generator.ir.sine_groups import vectorize_sines
 from gudgeon.generator.ir.statements import DeclareBranches, MarkUnused, MaxMagnitudeRow, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareSystem
@@ -241,7 +241,7 @@ class DrivenLoopKernels:
         varying = {k.rate for k in self.loops.coordinates}
         system_symbols = {*self.system.v, *self.system.q}
         result = []
-        for symbol in [s for s in info if s in definitions and not info[s].place]:
+        for symbol in [s for s in info if s in definitions and not info[s].storage_location]:
             read_symbols = definitions[symbol].free_symbols
             if read_symbols & system_symbols:
                 system_symbols.add(symbol)
@@ -251,14 +251,18 @@ class DrivenLoopKernels:
         return [symbol for symbol in result if symbol not in system_symbols]
 
     def _make_switch_kernel(self, branches: Sequence[BranchOf]) -> Kernel:
-        """Return the kernel of the switching functions of the loops' drives, which no other function writes.
+        """Return the kernel that writes the switching functions of the drives of driven loops to the output `g`.
 
-        `branches`: the branches (signs of switching functions) that the other functions read, also repeated ones.
+        The other functions of the loops read the branches only, and do not evaluate the switching functions.
+        `branches`: the branches (signs of switching functions) that these functions read. Repeated ones count once.
+        Each branch is a local variable of the kernel, which is otherwise unused.
         """
         builder = KernelBuilder(
-            self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."]
+            self.symbols,
+            "evaluate_loop_switching_functions",
+            ["Switching functions of the drives of dependent loops."],
         )
-        builder.begin_section("corners")
+        builder.begin_section("branches")
         for branch in dict.fromkeys(branches):
             name = f"side_{branch.args[0]}"
             builder.append_instruction(Statement(name, branch))

@@ -27,7 +27,7 @@ from gudgeon.generator.ir.statements import Call, Jump, Return, SolveDependentRo
 from gudgeon.generator.ir.values import Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_SINGULAR, RUN_VANISHING, append_friction_mode
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 
 _DOC = (
     "Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from",
@@ -35,8 +35,8 @@ _DOC = (
     "Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.",
 )
 _MAX_PIVOTS = 60  # listed in the comment
-# Appends what solves the system where a pivot vanishes, from generalized forces and right-hand sides by node.
-AppendFallback = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
+# Appends what solves the system where a pivot vanishes, to the kernel under construction.
+AppendFallback = Callable[[KernelBuilder], None]
 
 
 def make_dynamics_kernel(
@@ -87,7 +87,10 @@ def make_dynamics_kernel(
     _append_friction_forces(builder, kkt, x)
     _append_rigid_contact_accelerations(builder, kkt.system, x)
     if kkt.rows and not model.has_intermittent_constraints:
-        (append_fallback or _append_redundancy_handling)(builder, kkt, b)
+        if append_fallback:
+            append_fallback(builder)
+        else:
+            _append_redundancy_handling(builder, kkt, b)
     _append_powers(builder, kkt, prescribed_forces)
     builder.append_instruction(Return(pivot=bool(kkt.rows and not model.has_intermittent_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
@@ -297,20 +300,22 @@ def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[
     `prescribed_forces`: the generalized loads on those coordinates by name.
     """
     model = kkt.system.model
-    multipliers = {r: PlaceSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
+    multipliers = {r: StoredSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
     drive_power = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     for prescribed in kkt.system.prescribed:
         effort = (
-            sp.Add(*(m * PlaceSymbol(StorageLocation("a")[k]) for k, m in prescribed.mass.items())) - prescribed.applied
+            sp.Add(*(m * StoredSymbol(StorageLocation("a")[k]) for k, m in prescribed.mass.items()))
+            - prescribed.applied
         )
         for r, friction in enumerate(kkt.frictions):
-            force = PlaceSymbol(RHS["friction"][r]["force"])
+            force = StoredSymbol(RHS["friction"][r]["force"])
             effort -= model.symbols.differentiate_definitions(friction.slip.v, prescribed.rate) * force
         drive_power += prescribed.rate * (effort - prescribed_forces.get(prescribed.name, ZERO))
     clearances = tuple(RHS["clearance"][i]["power"] for i in range(len(model.clearances)))
     builder.append_store(RHS["power"][0], drive_power)
     friction_symbols = [
-        [PlaceSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")] for r in range(len(kkt.frictions))
+        [StoredSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")]
+        for r in range(len(kkt.frictions))
     ]
     friction = sp.Add(*(force * (v + speed) for force, v, speed in friction_symbols))
     builder.append_store(

@@ -86,7 +86,11 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
     """
     results = equations.results
     fields = name_joint_parameters(model, clearance)
-    names = {symbol: fields[info.place] for symbol, info in model.symbols.info.items() if info.place in fields}
+    names = {
+        symbol: fields[info.storage_location]
+        for symbol, info in model.symbols.info.items()
+        if info.storage_location in fields
+    }
     builder = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
     builder.begin_section("")
     for name, equation in equations.equations_by_name.items():

@@ -20,7 +20,7 @@ from gudgeon.generator.equations.system import System, make_absolute_system
 from gudgeon.generator.ir.kernels import Kernel, remove_unused_locals
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.signatures import Number
-from gudgeon.generator.ir.sine_pairs import vectorize_sines
+from gudgeon.generator.ir.sine_groups import vectorize_sines
 from gudgeon.generator.ir.statements import Declare
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels

@@ -104,7 +104,7 @@ def raise_small_masses(system: System) -> System:
     return replace(system, mass=mass)
 
 
-def make_constraint_correction_kernel(system: System, name: str = "closing_step") -> Kernel:
+def make_constraint_correction_kernel(system: System, name: str = "compute_closure_step") -> Kernel:
     """Return the kernel of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
 
     Both use one factorization. Small masses are raised (`raise_small_masses`), and motions that squeeze a film are

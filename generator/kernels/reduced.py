@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import sympy as sp
 
@@ -19,7 +19,7 @@ from gudgeon.generator.kernels.projection import make_projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import TreeEdge
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
@@ -65,10 +65,10 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
     return [remove_unused_locals(kernel) for kernel in kernels], kkt, driven_loop_kernels
 
 
-def _append_absolute_fallback(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _append_absolute_fallback(builder: KernelBuilder) -> None:
     """Append the code for a vanishing pivot: the absolute formulation solves and finds the dependent equations.
 
-    Nothing is appended if no pivot may jump to it; `right_sides` is not used.
+    Nothing is appended if the kernel has no jump to this code: no pivot can vanish.
     """
     if not builder.has_jumps:
         return
@@ -138,7 +138,7 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
             break
         variables = find_differentiation_variables(position)
         terms = [
-            differentiate(position, q) * PlaceSymbol(StorageLocation("all_a")[index])
+            differentiate(position, q) * StoredSymbol(StorageLocation("all_a")[index])
             for index, q in enumerate(model.q)
             if q in variables
         ]

@@ -153,25 +153,25 @@ def _make_shared_point_steps(tree: Tree) -> Iterator[ReductionStep]:
     A shared point is one at which three or more bodies meet. Pairs in use are those of tree and closures. Points whose
     pairs all stay are left out.
     """
-    for shared_point in tree.shared_points:
-        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in shared_point.pairs]
-        joints_in_use += [joint for joint in tree.closing_pairs if joint in shared_point.pairs]
+    for multiple_joint in tree.multiple_joints:
+        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in multiple_joint.pairs]
+        joints_in_use += [joint for joint in tree.closing_pairs if joint in multiple_joint.pairs]
         added_rows = tuple(
             row
             for joint in joints_in_use
-            if joint and joint not in shared_point.joints
-            for row in shared_point.list_pair_rows(joint)
+            if joint and joint not in multiple_joint.joints
+            for row in multiple_joint.list_pair_rows(joint)
         )
         removed_rows = tuple(
             row
-            for joint in shared_point.joints
+            for joint in multiple_joint.joints
             if joint not in joints_in_use
-            for row in shared_point.list_pair_rows(joint)
+            for row in multiple_joint.list_pair_rows(joint)
         )
         if removed_rows:
             yield ReductionStep(
                 message.HUB,
-                tuple(joint.name for joint in shared_point.joints),
+                tuple(joint.name for joint in multiple_joint.joints),
                 rows_gone=removed_rows,
                 rows_come=added_rows,
             )

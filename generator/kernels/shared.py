@@ -18,7 +18,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.ir.values import Conditional
-from gudgeon.generator.symbols.storage import Key, PlaceSymbol, StorageLocation, find_value_key
+from gudgeon.generator.symbols.storage import Key, StorageLocation, StoredSymbol, find_value_key
 from gudgeon.generator.symbols.switches import BranchOf
 
 FIRST_SWITCH = Argument("corner", Number.INTEGER)
@@ -109,7 +109,9 @@ def name_joint_parameters(model: Model, clearance: Clearance) -> dict[StorageLoc
     }
     for name, symbol in _list_file_parameters(model, laws):
         named_symbols.append((f"{name}_file_parameters" if name in used_names else name, symbol))
-    place_of_symbol = {symbol: symbol_info.place for symbol, symbol_info in info.items() if symbol_info.place}
+    place_of_symbol = {
+        symbol: symbol_info.storage_location for symbol, symbol_info in info.items() if symbol_info.storage_location
+    }
     name_of_place: dict[StorageLocation, str] = {}
     for name, symbol in named_symbols:
         if symbol in place_of_symbol and name not in name_of_place.values():
@@ -143,7 +145,7 @@ def _name_parameters(
     }
     for line in _iterate_lines(kernel):
         for expression in line.expressions:
-            read_places = (s.place for s in expression.free_symbols if isinstance(s, PlaceSymbol))
+            read_places = (s.storage_location for s in expression.free_symbols if isinstance(s, StoredSymbol))
             place_of_key |= {place: place for place in read_places if place.is_parameter}
     name_of_place = {field: parameter_names.get(field, field.member) for field in place_of_key.values()}
     order = [

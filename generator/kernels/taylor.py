@@ -207,7 +207,7 @@ class _RecordedKKT(KKT):
         return x
 
 
-def _ignore_vanishing_pivot(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _ignore_vanishing_pivot(builder: KernelBuilder) -> None:
     """Append nothing for a vanishing pivot: the `append_fallback` of `make_dynamics_kernel` for the series.
 
     At such a state another method takes the step.

@@ -103,7 +103,7 @@ class Reader:
             str, set[Dimension]
         ] = {}  # parameters without a unit -> dimensions of the values in which they stand alone
         self.removed_names: frozenset[str] = frozenset()  # names of entries whose shape is wrong
-        self.refused_names: set[str] = set()  # names of parameters, curves and expressions that are not allowed
+        self.invalid_names: set[str] = set()  # names of parameters, curves and expressions that are not allowed
         self.parsed_texts: list[Text] = []  # all parsed expressions
         self.result_scopes: dict[
             str, ResultDimension
@@ -149,16 +149,16 @@ class Reader:
         """Raise the collected errors: one error as itself, several as InputErrors; return if there are none.
 
         Left out are duplicates, unknown names of entries that `remove_invalid_entries` removed, and errors in
-        expressions that use a refused name: they follow from another error.
+        expressions that use an invalid name: they follow from another error.
         """
         unique_errors = {_make_error_key(error): error for error in reversed(self.errors)}.values()
-        texts_with_refused_names = self._find_texts_with_refused_names()
+        texts_with_invalid_names = self._find_texts_with_invalid_names()
         errors = [
             error
             for error in unique_errors
             if not (
                 self._is_unknown_name_of_removed_entry(error)
-                or any(_is_located_in(error, text) for text in texts_with_refused_names)
+                or any(_is_located_in(error, text) for text in texts_with_invalid_names)
             )
         ]
         if errors:
@@ -174,13 +174,13 @@ class Reader:
             self.removed_names.intersection((ANY_NAME, name and name[1]))
         )
 
-    def _find_texts_with_refused_names(self) -> list[Text]:
-        """Return the parsed expressions that use a name whose definition was refused.
+    def _find_texts_with_invalid_names(self) -> list[Text]:
+        """Return the parsed expressions that use an invalid name: one whose definition was refused with an error.
 
-        Their errors follow from that refusal. Names that are valid in every expression (t, pi) do not count. [] if no
-        name was refused.
+        Such a name is undefined in the expression, so that the errors of the expression follow from that one. Names
+        that are valid in every expression (t, pi) do not count. [] if there is no invalid name.
         """
-        names = [re.escape(name) for name in self.refused_names if name not in RESERVED]
+        names = [re.escape(name) for name in self.invalid_names if name not in RESERVED]
         pattern = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
         return [text for text in self.parsed_texts if pattern.search(text)] if names else []
 

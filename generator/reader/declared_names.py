@@ -48,9 +48,9 @@ def read_declared_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNa
     _check_expression_names(reader, root)
     _check_point_names(reader, root)
     point_names, repeated_names = PointNames(root), frozenset(_check_result_names(reader, root))
-    number_kinds = dict.fromkeys(reader.parameters, "a parameter") | dict.fromkeys(reader.expressions, "an expression")
-    results = ResultNames(point_names, root, number_kinds, repeated_names)
-    reader.result_scopes |= {OF_MOTION: MotionNames(point_names, root, number_kinds), OF_RESULTS: results}
+    kind_by_name = dict.fromkeys(reader.parameters, "a parameter") | dict.fromkeys(reader.expressions, "an expression")
+    results = ResultNames(point_names, root, kind_by_name, repeated_names)
+    reader.result_scopes |= {OF_MOTION: MotionNames(point_names, root, kind_by_name), OF_RESULTS: results}
     return point_names, results
 
 
@@ -69,16 +69,16 @@ def _check_labels(reader: Reader, root: Map) -> None:
 def _check_expression_names(reader: Reader, root: Map) -> None:
     """Collect an error for each name of a parameter, curve or expression that is not allowed or used twice.
 
-    Names of outputs count as used. Names that are not allowed are recorded in reader.refused_names.
+    Names of outputs count as used. Names that are not allowed are recorded in reader.invalid_names.
     """
     users_of_names: dict[str, str] = {}
     for section, kind in _EXPRESSION_SECTIONS.items():
         names = root.get_mapping(section).list_keys()
         for name in names if section != "outputs" else ():  # names of outputs are checked with the results
             with reader.collect_errors():
-                reader.refused_names.add(str(name))
+                reader.invalid_names.add(str(name))
                 check_name(name, kind, name.where)
-                reader.refused_names.remove(str(name))
+                reader.invalid_names.remove(str(name))
                 if name in users_of_names:
                     message = f"{name!r} names this {kind} and {users_of_names[name]}"
                     raise BadNameError(message, name.where, "expected another name: expressions may contain both")

@@ -28,7 +28,7 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     texts = {str(name): text for name, text in section.list_entries()}
     trees: dict[str, Expr] = {name: make_unreadable_number(text) for name, text in texts.items()}
     for name, text in texts.items():
-        if name in reader.refused_names:
+        if name in reader.invalid_names:
             continue
         with reader.collect_errors():
 

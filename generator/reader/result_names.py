@@ -63,21 +63,20 @@ _TOTAL_RESULTS: Mapping[str, Mapping[str, Dimension]] = {
     "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
     "work": {"drives": TORQUE, "forces": TORQUE, "clearances": TORQUE},
 }
-UNCHECKED_OWNERS = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: the equations determine which exist
+OWNERS_CHECKED_BY_RUN = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: the equations determine which exist
 _ACCELERATIONS = ("ax", "ay", "alpha")
 
 
 class ResultNames:
     """Return the dimension of each result of a mechanism, with and without play.
 
-    `number_kinds` maps names without a dot to phrases ("a parameter"). `unreadable_owners` are joints, drives and
-    forces whose
-    own errors were reported: their results are accepted without a check. `owners` maps the owner of results ("A",
-    "L1.head", "energy") to the dimensions of its results by name.
+    `kind_by_name` maps names of numbers, which have no dot, to phrases ("a parameter"). `unreadable_owners` are joints,
+    drives and forces whose own errors were reported: their results are accepted without a check. `owners` maps the
+    owner of results ("A", "L1.head", "energy") to the dimensions of its results by name.
     """
 
     def __init__(
-        self, point_names: PointNames, root: Map, number_kinds: Mapping[str, str], unreadable_owners: Iterable[str]
+        self, point_names: PointNames, root: Map, kind_by_name: Mapping[str, str], unreadable_owners: Iterable[str]
     ) -> None:
         """Collect the results of all bodies, points, joints, drives and forces that the file `root` declares."""
         joints, drives, forces = (
@@ -102,7 +101,7 @@ class ResultNames:
             guides, _JOINT_RESULTS
         )
         self.owners |= {f"{guide}.{corner}": _CORNER_RESULTS for guide in guides for corner in CORNERS}
-        self.number_kinds = number_kinds
+        self.kind_by_name = kind_by_name
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """Return the dimension of a result's name; None if its owner could not be read, so that any dimension fits.
@@ -114,7 +113,7 @@ class ResultNames:
             return None
         if not dot:
             candidates = [path for path in self.iterate_result_names() if path.partition(".")[0] == name.path]
-            raise make_unknown_name_error("name", name.path, candidates or self.number_kinds, where)
+            raise make_unknown_name_error("name", name.path, candidates or self.kind_by_name, where)
         if owner not in self.owners:
             raise make_unknown_name_error("name", name.path, self.iterate_result_names(), where)
         if result not in self.owners[owner]:
@@ -122,22 +121,24 @@ class ResultNames:
             raise make_unknown_name_error(f"result of {owner}", result, self.owners[owner], location)
         return self.owners[owner][result]
 
-    def raise_for_name_without_dot(self, name: Text, outputs: Iterable[str]) -> None:
+    def reject_name_without_dot(self, name: Text, outputs: Iterable[str]) -> None:
         """Raise UnknownNameError, with the nearest series, for any name without a dot; others are not checked here.
 
         A series of a result is named OWNER.RESULT. Series that the section `outputs` defines have no dot, so that
-        callers must not pass their names. `outputs`: these names, for the hint.
+        callers must not pass their names. `outputs`: these names, for the hint. For a name in `kind_by_name`, such as
+        that of a parameter, the hint lists results of this name; for the name of an owner it lists its results. Called
+        for the entries of `peaks` in a scene.
         """
         if "." in name:
             return
-        if name in self.number_kinds:
+        if name in self.kind_by_name:
             same_results = [path for path in self.iterate_result_names() if path.rpartition(".")[2] == name]
             hint = (
                 f"expected {', '.join(same_results[:6])}"
                 if same_results
                 else "expected a result: L1.omega, A.F, drive.torque"
             )
-            raise UnknownNameError(f"{str(name)!r} is {self.number_kinds[name]}, not a series", name.where, hint)
+            raise UnknownNameError(f"{str(name)!r} is {self.kind_by_name[name]}, not a series", name.where, hint)
         results_of_owner = [path for path in self.iterate_result_names() if path.partition(".")[0] == name]
         raise make_unknown_name_error(
             "series", name, results_of_owner or [*outputs, *self.iterate_result_names()], name.where
@@ -175,10 +176,10 @@ class ResultNames:
 class MotionNames(ResultNames):
     """Return the dimension of each name on which a force may depend: coordinates and velocities."""
 
-    def __init__(self, point_names: PointNames, root: Map, number_kinds: Mapping[str, str]) -> None:
+    def __init__(self, point_names: PointNames, root: Map, kind_by_name: Mapping[str, str]) -> None:
         """Collect coordinates and velocities of bodies and points; accelerations and results of forces are left out."""
         moving = {"bodies": root["bodies"], "ground": root.get_mapping("ground")}
-        super().__init__(point_names, Map.make_map(moving, root.where), number_kinds, ())
+        super().__init__(point_names, Map.make_map(moving, root.where), kind_by_name, ())
         for total in _TOTAL_RESULTS:
             del self.owners[total]
         self.owners = {

@@ -29,7 +29,7 @@ from gudgeon.generator.reader.contacts import check_contact_in_guide, order_by_i
 from gudgeon.generator.reader.fields import FieldContext, read_fields
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import sort_by_dependencies
-from gudgeon.generator.reader.result_names import UNCHECKED_OWNERS, ResultNames
+from gudgeon.generator.reader.result_names import OWNERS_CHECKED_BY_RUN, ResultNames
 from gudgeon.generator.yaml import Map, Text, describe_node
 from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.parser import offset_location
@@ -274,10 +274,10 @@ def check_peaks(
     """
     for scene in scenes.values():
         for name in scene.peaks:
-            is_later = name.partition(".")[0] in UNCHECKED_OWNERS or name in _find_internal_states(scene)
-            if isinstance(name, Text) and name not in outputs and not is_later:
+            is_checked_by_run = name.partition(".")[0] in OWNERS_CHECKED_BY_RUN or name in _find_internal_states(scene)
+            if isinstance(name, Text) and name not in outputs and not is_checked_by_run:
                 with reader.collect_errors():
-                    result_names.raise_for_name_without_dot(name, outputs)
+                    result_names.reject_name_without_dot(name, outputs)
                     result_names(Name(str(name)), name.where)
                     result_names.check_result_availability(name, scene.name, scene.play)
 

@@ -77,7 +77,9 @@ def add_directions(
         ):
             first_index = len(system.q) + len(driven_loops.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
-                symbols.info[symbol] = replace(symbols.info[symbol], place=StorageLocation("q")[first_index + k])
+                symbols.info[symbol] = replace(
+                    symbols.info[symbol], storage_location=StorageLocation("q")[first_index + k]
+                )
             angle_coefficients = {index_of[name]: c for name, c in frame.angle_coefficients.items() if name in index_of}
             directions.append(Direction(frame.cos, frame.sin, angle_coefficients))
     return replace(driven_loops, directions=tuple(directions))
@@ -244,7 +246,7 @@ def _set_storage_locations(
 
     def set_location(symbol: sp.Symbol, place: StorageLocation) -> None:
         """Set the storage location from which C reads a symbol."""
-        info[symbol] = replace(info[symbol], place=place)
+        info[symbol] = replace(info[symbol], storage_location=place)
 
     for i, k in enumerate((*free_indices, *dependent_indices)):
         set_location(system.q[k], StorageLocation("q")[i])

@@ -21,7 +21,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import find_joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
 from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute_coordinate
-from gudgeon.generator.reduction.shared_points import SharedPoint, find_shared_points
+from gudgeon.generator.reduction.multiple_joints import MultipleJoint, find_multiple_joints
 from gudgeon.generator.solvers.sparsity import find_elimination_below
 
 
@@ -107,13 +107,13 @@ class OperationEstimate:
         model: Model,
         angles: Mapping[str, Affine],
         used_rows: frozenset[str],
-        shared_points: Sequence[SharedPoint],
+        multiple_joints: Sequence[MultipleJoint],
     ) -> None:
         """Begin without estimates for the trees of a model.
 
         `angles`: those of the bodies in free ones; `used_rows`: equations that the angles satisfy already.
         """
-        self.model, self.shared_points = model, shared_points
+        self.model, self.multiple_joints = model, multiple_joints
         self._negligible_inertia: dict[tuple[str, str], bool] = {}  # by body and joint
         self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
         body_of = {q: body.name for body in model.bodies for q in body.q}
@@ -121,7 +121,7 @@ class OperationEstimate:
         self.angle_coordinates = {
             body_name: frozenset(k for k in affine if k in angles) for body_name, affine in angles.items()
         }
-        satisfied = used_rows.union(*(shared_point.row_names for shared_point in shared_points))
+        satisfied = used_rows.union(*(multiple_joint.row_names for multiple_joint in multiple_joints))
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in satisfied]
 
     def __call__(self, tree_edges: tuple[TreeEdge, ...], limit: float = math.inf) -> int:
@@ -228,7 +228,7 @@ class OperationEstimate:
         """Return the pairs of bodies, as joints, that close the points that several bodies share (multiple joints).
 
         They connect the bodies of such a point that the pairs of the tree do not connect. Pairs whose equations contain
-        few coordinates are preferred (`SharedPoint.find_connecting_pairs`).
+        few coordinates are preferred (`MultipleJoint.find_connecting_pairs`).
         """
         paths: dict[str, list[TreeEdge]] = {}
         for tree_edge in tree_edges:
@@ -241,8 +241,8 @@ class OperationEstimate:
         tree_joints = [tree_edge.joint for tree_edge in tree_edges if tree_edge.joint]
         return [
             joint
-            for shared_point in self.shared_points
-            for joint in shared_point.find_connecting_pairs(tree_joints, count_coordinates)
+            for multiple_joint in self.multiple_joints
+            for joint in multiple_joint.find_connecting_pairs(tree_joints, count_coordinates)
         ]
 
     def _find_relative_coordinates(self, paths: Mapping[str, list[TreeEdge]], bodies: Sequence[str]) -> set[str]:
@@ -279,7 +279,7 @@ class Tree:
         str
     ]  # equations that angles and edges satisfy by themselves, or that shared points replace
     closing_pairs: tuple[Joint, ...]  # pairs of bodies at a shared point that the tree does not connect
-    shared_points: tuple[SharedPoint, ...]
+    multiple_joints: tuple[MultipleJoint, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
     costs: tuple[int, ...]  # estimated operations (or a lower bound) of the trees tried, the first grown breadth first
 
@@ -289,12 +289,12 @@ class Tree:
         `row`: the name of the closure. A closure that is an equation of the file itself gives {row: 1}.
         """
         name, _, component = row.rpartition(".")
-        for shared_point in self.shared_points:
+        for multiple_joint in self.multiple_joints:
             for joint in self.closing_pairs:
-                if joint in shared_point.pairs and joint.name == name:
-                    spanning = [tree_edge.joint for tree_edge in self.edges if tree_edge.joint in shared_point.pairs]
-                    spanning += [pair for pair in self.closing_pairs if pair in shared_point.pairs]
-                    signs = shared_point.find_multiplier_signs([j for j in spanning if j is not None], joint)
+                if joint in multiple_joint.pairs and joint.name == name:
+                    spanning = [tree_edge.joint for tree_edge in self.edges if tree_edge.joint in multiple_joint.pairs]
+                    spanning += [pair for pair in self.closing_pairs if pair in multiple_joint.pairs]
+                    signs = multiple_joint.find_multiplier_signs([j for j in spanning if j is not None], joint)
                     return {f"{owner}.{component}": sign for owner, sign in signs.items()}
         return {row: 1}
 
@@ -375,22 +375,23 @@ def choose_tree(model: Model) -> Tree:
     used_rows = frozenset(solved)
     free = tuple(body_name for body_name in angles if angles[body_name] == {body_name: 1})
     edges = _find_edges(model, angles)
-    shared_points = find_shared_points(edges)
-    shared_joint_names = {joint.name for shared_point in shared_points for joint in shared_point.joints}
+    multiple_joints = find_multiple_joints(edges)
+    shared_joint_names = {joint.name for multiple_joint in multiple_joints for joint in multiple_joint.joints}
     edges = [joint for joint in edges if joint.name not in shared_joint_names] + [
-        joint for shared_point in shared_points for joint in shared_point.pairs
+        joint for multiple_joint in multiple_joints for joint in multiple_joint.pairs
     ]
-    estimate = OperationEstimate(model, angles, used_rows, shared_points)
+    estimate = OperationEstimate(model, angles, used_rows, multiple_joints)
     trees = [_grow_tree(model, edges, edges, depth) for depth in _MAX_DEPTHS]
     if len(free) > _MAX_COORDINATES_FOR_EXCHANGE:
         best = estimate.find_cheapest(trees)
     elif (best := min(trees, key=estimate)) == trees[0]:
         best = _improve_by_exchange(model, edges, best, estimate)
     rows = used_rows.union(
-        *(tree_edge.satisfied_rows for tree_edge in best), *(shared_point.row_names for shared_point in shared_points)
+        *(tree_edge.satisfied_rows for tree_edge in best),
+        *(multiple_joint.row_names for multiple_joint in multiple_joints),
     )
     closing = tuple(estimate.find_closing_pairs(best))
-    return Tree(angles, free, best, rows, closing, tuple(shared_points), solved, tuple(estimate.costs.values()))
+    return Tree(angles, free, best, rows, closing, tuple(multiple_joints), solved, tuple(estimate.costs.values()))
 
 
 def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:

@@ -22,7 +22,7 @@ from gudgeon.generator.ir.reciprocals import hoist_reciprocals
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, ZERO, Argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Conditional, Test
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
 CONTOUR_INPUTS = (
@@ -37,9 +37,9 @@ CONTOUR_INPUTS = (
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _IS_PENETRATING = Test(contact.delta, ">", (0.0,))
 DEPTH_STATEMENT = Statement(contact.depth.name, Conditional(_IS_PENETRATING, contact.delta, ZERO))
-_IS_CLOSED = Test(PlaceSymbol(CONTACT["closed"]))
-_STORED_SPEED = PlaceSymbol(CONTACT["deltadot_minus"])
-_FORCE = PlaceSymbol(CONTACT["force"])  # of surfaces that do not give
+_IS_CLOSED = Test(StoredSymbol(CONTACT["closed"]))
+_STORED_SPEED = StoredSymbol(CONTACT["deltadot_minus"])
+_FORCE = StoredSymbol(CONTACT["force"])  # of surfaces that do not give
 
 
 def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
@@ -197,7 +197,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
     normal_force = contact.F_N if clearance.contour else F_n
     friction_results: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        states = [builder.append_local("bent", PlaceSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
+        states = [builder.append_local("bent", StoredSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
         for state, base in zip(states, derivative_builder.states, strict=False):
             tangents.store_tangent(state, {base: sp.Integer(1)})
         friction_results = derivative_builder.append_law(clearance.friction, (normal_force, contact.v_t, *states))

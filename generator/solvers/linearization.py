@@ -27,7 +27,7 @@ from gudgeon.generator.ir.signatures import DISCRETE, RHS, Number, make_contact_
 from gudgeon.generator.ir.statements import Call, Declare
 from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.pivots import append_friction_mode
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
@@ -262,7 +262,7 @@ class Linearization:
             node, name, builder = self.n + self.m + index, friction.name, self.builder
             stick, sign = append_friction_mode(builder, name, index)
             held_force_value = Conditional(
-                Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][index]["force"]), ZERO
+                Test(stick, "!=", (0.0,)), StoredSymbol(RHS["friction"][index]["force"]), ZERO
             )
             force = builder.append_local(f"held_force_{name}", held_force_value)
             self.stick_flags.append(stick)

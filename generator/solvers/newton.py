@@ -44,7 +44,7 @@ from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.solvers.linearization import JacobianEntries, Linearization, Pair
 from gudgeon.generator.solvers.pivots import SINGULAR, is_number_or_signed_symbol
 from gudgeon.generator.solvers.sparsity import choose_elimination
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 from gudgeon.generator.symbols.symbol_sums import subtract_products
 
@@ -299,7 +299,7 @@ class Newton:
         for k in order:
             i = self.equation.get(k, k)
             factors = ((self.lower[i, j], x[j]) for j in earlier_columns[i])
-            value = subtract_products(PlaceSymbol(StorageLocation("x")[i]), factors)
+            value = subtract_products(StoredSymbol(StorageLocation("x")[i]), factors)
             x[k] = builder.append_local(f"b_{self.names[k]}", value)
         builder.begin_section("backward")
         for k in reversed(order):
@@ -328,7 +328,7 @@ class Newton:
         builder.begin_section("right-hand side")
         builder.append_instruction(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
-        r_q, r_v = ([PlaceSymbol(StorageLocation("r")[first + k]) for k in range(n)] for first in (0, n))
+        r_q, r_v = ([StoredSymbol(StorageLocation("r")[first + k]) for k in range(n)] for first in (0, n))
         coordinates = sorted({k for node, k in jacobians.phi_q if node < n + self.m})
         shifted = {
             k: builder.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k])
@@ -344,7 +344,7 @@ class Newton:
         for i, value in jacobians.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
-            b[i].append(PlaceSymbol(StorageLocation("r")[self._find_state_index(i)]))
+            b[i].append(StoredSymbol(StorageLocation("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
             builder.append_store(StorageLocation("x")[i], self._find_eta_factor(i) * sp.Add(*terms))
         builder.append_instruction(
@@ -352,10 +352,10 @@ class Newton:
         )
         builder.begin_section("solution")
         for k in range(n):
-            builder.append_store(StorageLocation("u")[k], ETA * (r_q[k] + PlaceSymbol(StorageLocation("x")[k])))
-            builder.append_store(StorageLocation("u")[n + k], PlaceSymbol(StorageLocation("x")[k]))
+            builder.append_store(StorageLocation("u")[k], ETA * (r_q[k] + StoredSymbol(StorageLocation("x")[k])))
+            builder.append_store(StorageLocation("u")[n + k], StoredSymbol(StorageLocation("x")[k]))
         for i in range(self.first_state, self.nodes):
-            builder.append_store(StorageLocation("u")[self._find_state_index(i)], PlaceSymbol(StorageLocation("x")[i]))
+            builder.append_store(StorageLocation("u")[self._find_state_index(i)], StoredSymbol(StorageLocation("x")[i]))
         for w in range(N_WORK):
             builder.append_store(StorageLocation("u")[2 * n + w], self._compute_work_change(w))
         scalars = (Argument("eta"), Argument("s"))
@@ -373,13 +373,13 @@ class Newton:
         substitution: u_v by coordinate, followed by η μ by equation.
         """
         jacobians, n = self.jacobians, self.n
-        terms = [PlaceSymbol(StorageLocation("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]
+        terms = [StoredSymbol(StorageLocation("r")[2 * n + w]), sp.Symbol("s") * jacobians.power_t.get(w, ZERO)]
         for part, first in ((jacobians.power_q, 0), (jacobians.power_v, n), (jacobians.power_z, 2 * n + N_WORK)):
-            terms += [value * PlaceSymbol(StorageLocation("u")[first + k]) for (i, k), value in part.items() if i == w]
+            terms += [value * StoredSymbol(StorageLocation("u")[first + k]) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
         for (i, node), value in jacobians.power_row.items():
-            start_rate = ETA * PlaceSymbol(StorageLocation("r")[n + node]) if node < n else ZERO
-            changes += [value * (PlaceSymbol(StorageLocation("x")[node]) - start_rate)] if i == w else []
+            start_rate = ETA * StoredSymbol(StorageLocation("r")[n + node]) if node < n else ZERO
+            changes += [value * (StoredSymbol(StorageLocation("x")[node]) - start_rate)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 

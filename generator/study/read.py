@@ -400,23 +400,25 @@ def _read_measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> 
         for name, value in entries.list_entries():
             with reader.collect_errors():
                 measures.append(_read_measure(name, check_mapping_node(value, f"measures.{name}", name), windows, root))
-                _check_single_subtracted_scene(measures)
+                _check_single_reference_scene(measures)
     return tuple(measures)
 
 
-def _check_single_subtracted_scene(measures: Sequence[Measure]) -> None:
+def _check_single_reference_scene(measures: Sequence[Measure]) -> None:
     """Raise BadValueError if statistics of all steps subtract series of different scenes.
 
     Statistics of samples in a window do not count. Only the last measure is compared with the first.
     """
-    origins = [
-        measure.origin
+    reference_scenes = [
+        measure.reference_scene
         for measure in measures
-        if measure.origin is not None and measure.statistic not in WINDOW_STATISTICS
+        if measure.reference_scene is not None and measure.statistic not in WINDOW_STATISTICS
     ]
-    if origins and origins[-1] != origins[0]:
-        message = f"statistics of all steps subtract both scene {origins[0]} and scene {origins[-1]}"
-        raise BadValueError(message, origins[-1].where, f"expected from: {origins[0]}, or a statistic of samples")
+    if reference_scenes and reference_scenes[-1] != reference_scenes[0]:
+        message = f"statistics of all steps subtract both scene {reference_scenes[0]} and scene {reference_scenes[-1]}"
+        raise BadValueError(
+            message, reference_scenes[-1].where, f"expected from: {reference_scenes[0]}, or a statistic of samples"
+        )
 
 
 def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
@@ -458,11 +460,11 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
         str(statistic),
         source_name,
         window,
-        _read_subtracted_scene(name, node, statistic),
+        _read_reference_scene(name, node, statistic),
     )
 
 
-def _read_subtracted_scene(name: Text, node: Map, statistic: Text) -> Text | None:
+def _read_reference_scene(name: Text, node: Map, statistic: Text) -> Text | None:
     """Return the scene whose series a measure subtracts, the value of its key `from`; None if there is none.
 
     Raises an InputError if a deviation has no scene, or if the statistic is not one of a series.

@@ -220,14 +220,15 @@ class Window:
 class Measure:
     """Represent one number of a run: a statistic of a series, joint or event in a window ("": the whole run).
 
-    `origin`: the scene whose series is subtracted, at the same times and with the same parameters.
+    `measured_name`: the name of the series, joint or event, WHOLE_RUN, or the period of a section. `reference_scene`:
+    the scene whose series is subtracted, at the same times and with the same parameters (key `from`).
     """
 
     name: str
     statistic: str
-    of: Text
+    measured_name: Text
     window: str = ""
-    origin: Text | None = None
+    reference_scene: Text | None = None
 
 
 @dataclass(frozen=True)
@@ -269,10 +270,11 @@ class StudyFile:
     wear: WearRounds | None = None
     left_out: tuple[Axis, ...] = ()  # dimensions of the file that `--set` replaces by one value
 
-    def replace_starts(self, count: int | None, seed: int | None) -> StudyFile:
-        """Return the study with another count or seed of its perturbed starts; None keeps the value.
+    def replace_perturbed_starts(self, count: int | None, seed: int | None) -> StudyFile:
+        """Return the study with another count or seed of its perturbed starts; None keeps the value, also a count of 0.
 
-        A study without perturbed starts is returned unchanged.
+        The settings as written in the file (`specified`) are changed too, for the report. A study without perturbed
+        starts is returned unchanged.
         """
         changed_settings = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
         if self.starts is None or not changed_settings:
@@ -295,7 +297,7 @@ class StudySet:
     titles: Mapping[str, str] = field(default_factory=dict)  # of names, for people
     about: tuple[str, ...] = ()  # paragraphs, for people
 
-    def replace_starts(self, count: int | None, seed: int | None) -> StudySet:
+    def replace_perturbed_starts(self, count: int | None, seed: int | None) -> StudySet:
         """Return the studies with another count or seed of their perturbed starts; None keeps the value.
 
         Parts without perturbed starts stay unchanged. Raises BadValueError if a value is given and no part has any.
@@ -306,4 +308,6 @@ class StudySet:
             raise BadValueError(
                 f"no run has perturbed starts, whose {' and '.join(changed_settings)} is given", None, hint
             )
-        return replace(self, parts={name: part.replace_starts(count, seed) for name, part in self.parts.items()})
+        return replace(
+            self, parts={name: part.replace_perturbed_starts(count, seed) for name, part in self.parts.items()}
+        )

@@ -255,7 +255,7 @@ class ParameterTable(Freezable):
 
     def find_storage_location(self, symbol: sp.Symbol) -> StorageLocation:
         """Return the storage location of a parameter in the struct Parameters; the symbol must be a parameter."""
-        place = self.symbols.info[symbol].place
+        place = self.symbols.info[symbol].storage_location
         assert place is not None
         return place
 

@@ -34,17 +34,17 @@ class StorageLocation:
         return StorageLocation(self.base, (*self.path, step))
 
     def __str__(self) -> str:
-        """Return the place as text, such as "rhs.clearance[0].Fx"."""
+        """Return the location as text, such as "rhs.clearance[0].Fx"."""
         return self.base + "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in self.path)
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the name of the argument or local that contains the place, in a set."""
+        """Return the name of the argument or local that contains the location, in a set."""
         return frozenset([self.base])
 
     @property
     def is_parameter(self) -> bool:
-        """Return whether the place is a field of the argument that holds the parameters of a run."""
+        """Return whether the location is a field of the argument that holds the parameters of a run."""
         return self.base == PARAMETERS and self.path != ()
 
     @property
@@ -66,21 +66,21 @@ def make_real_symbol(name: str) -> sp.Symbol:
     return sp.Symbol(name, real=True)
 
 
-class PlaceSymbol(sp.Symbol):
+class StoredSymbol(sp.Symbol):
     """A symbol that is read from a storage location; SymPy orders it like a plain symbol of that name."""
 
-    place: StorageLocation
-    __slots__ = ("place",)
+    storage_location: StorageLocation
+    __slots__ = ("storage_location",)
 
-    def __new__(cls, place: StorageLocation) -> PlaceSymbol:
+    def __new__(cls, storage_location: StorageLocation) -> StoredSymbol:
         """Return the real symbol whose value is read from a storage location; its name is the text of the location."""
-        symbol: PlaceSymbol = sp.Symbol.__xnew__(cls, str(place), real=True)
-        symbol.place = place
+        symbol: StoredSymbol = sp.Symbol.__xnew__(cls, str(storage_location), real=True)
+        symbol.storage_location = storage_location
         return symbol
 
     def __getnewargs_ex__(self) -> tuple[Any, ...]:
         """Return the arguments with which the symbol is unpickled."""
-        return (self.place,), {}
+        return (self.storage_location,), {}
 
     @classmethod
     def class_key(cls) -> Any:
@@ -92,8 +92,8 @@ Key: TypeAlias = str | StorageLocation  # identifies a value: the name of a loca
 
 
 def find_value_key(symbol: sp.Symbol) -> Key:
-    """Return the storage location of a symbol that is read from one (a PlaceSymbol), else the symbol's name."""
-    return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
+    """Return the storage location of a symbol that is read from one (a StoredSymbol), else the symbol's name."""
+    return symbol.storage_location if isinstance(symbol, StoredSymbol) else str(symbol.name)
 
 
 _READ_ONLY_TYPES: dict[type, Any] = {dict: MappingProxyType, list: tuple, set: frozenset}

@@ -14,13 +14,13 @@ from typing import TypeAlias
 import sympy as sp
 from sympy.core.basic import ordering_of_classes
 
-from gudgeon.generator.symbols.storage import PlaceSymbol
+from gudgeon.generator.symbols.storage import StoredSymbol
 
 _ZERO, _ONE, _MINUS_ONE = sp.S.Zero, sp.S.One, sp.S.NegativeOne
 _ASSUMPTIONS = sp.Symbol("x", real=True).assumptions0
 _RANK_OF_CLASS = {
     sp.Symbol: ordering_of_classes.index("Symbol"),
-    PlaceSymbol: len(ordering_of_classes) + 1,
+    StoredSymbol: len(ordering_of_classes) + 1,
 }
 _MUL_RANK, _MINUS_ONE_KEY = ordering_of_classes.index("Mul"), (ordering_of_classes.index("NegativeOne"), "")
 _SymbolKey: TypeAlias = tuple[int, str]  # position of a symbol in SymPy's order of arguments: rank of its class, name

@@ -17,7 +17,14 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
-from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, PlaceSymbol, StorageLocation, make_real_symbol
+from gudgeon.generator.symbols.storage import (
+    PARAMETERS,
+    Freezable,
+    Key,
+    StorageLocation,
+    StoredSymbol,
+    make_real_symbol,
+)
 from gudgeon.generator.symbols.switches import Switches
 
 PARAMETER_MEMBER = StorageLocation(PARAMETERS)[""]  # stands for the field of a parameter that is called as the symbol
@@ -41,17 +48,17 @@ def get_document_name(symbol: sp.Symbol) -> str:
 class SymbolInfo:
     """Storage location, meaning and unit of a symbol.
 
-    `place` is None for a symbol that is a local of each kernel, computed from its definition.
+    `storage_location` is None for a symbol that is a local of each kernel, computed from its definition.
     """
 
-    place: StorageLocation | None
+    storage_location: StorageLocation | None
     meaning: str
     unit: str
 
     @property
     def is_parameter(self) -> bool:
         """Return whether the symbol is a parameter of the run."""
-        return self.place is not None and self.place.base == PARAMETERS
+        return self.storage_location is not None and self.storage_location.base == PARAMETERS
 
 
 class Symbols(Freezable):
@@ -123,7 +130,9 @@ class Symbols(Freezable):
         The number is omitted, or replaced by the smallest unused one. `used_names`: all names in the function. Names
         that stay are left out.
         """
-        locals_ = [name for name in used_names if not ((place := self._find_place(name)) and place.is_parameter)]
+        locals_ = [
+            name for name in used_names if not ((place := self._find_storage_location(name)) and place.is_parameter)
+        ]
         numbered_names = sorted(
             (name for name in locals_ if name in self._base_of_numbered_name), key=lambda name: (len(name), name)
         )
@@ -146,12 +155,12 @@ class Symbols(Freezable):
 
     def _is_parameter_member(self, name: str) -> bool:
         """Return whether a parameter's field in the struct Parameters has this name."""
-        return self._find_place(name) == StorageLocation(PARAMETERS)[name]
+        return self._find_storage_location(name) == StorageLocation(PARAMETERS)[name]
 
-    def _find_place(self, name: str) -> StorageLocation | None:
+    def _find_storage_location(self, name: str) -> StorageLocation | None:
         """Return the storage location of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(make_real_symbol(name))
-        return info.place if info else None
+        return info.storage_location if info else None
 
     def add_symbol(
         self,
@@ -251,9 +260,9 @@ class Symbols(Freezable):
         return result
 
     def read_from_storage_locations(self, value: sp.Expr) -> sp.Expr:
-        """Return the value with each symbol that has a storage location replaced by its `PlaceSymbol`."""
-        places = ((s, self.info[s].place) for s in value.free_symbols if s in self.info)
-        return value.xreplace({s: PlaceSymbol(place) for s, place in places if place})
+        """Return the value with each symbol that has a storage location replaced by its `StoredSymbol`."""
+        places = ((s, self.info[s].storage_location) for s in value.free_symbols if s in self.info)
+        return value.xreplace({s: StoredSymbol(place) for s, place in places if place})
 
     def expand_definitions(self, expression: sp.Expr) -> sp.Expr:
         """Return `expression` with every derived symbol replaced by its definition, repeatedly, until none is left."""

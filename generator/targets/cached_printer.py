@@ -16,7 +16,7 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.precedence import PRECEDENCE, precedence
 
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import PlaceSymbol
+from gudgeon.generator.symbols.storage import StoredSymbol
 
 Method = Callable[..., str]
 
@@ -108,7 +108,7 @@ class CachedPrinter:
         return f"({self._print(item)})" if needs_brackets else self._print(item)
 
 
-_ORDERED_BY_NAME = (sp.Symbol, PlaceSymbol)
+_ORDERED_BY_NAME = (sp.Symbol, StoredSymbol)
 _get_symbol_name = attrgetter("name")
 _LAST_NAME = "\U0010ffff"  # is sorted after all names of symbols
 _precedence = lru_cache(1_000_000)(precedence)

@@ -147,7 +147,7 @@ def _describe_values(field: Field) -> str:
     if field.kind == RESULTS:
         return "[NAME, …], names of results"
     if field.kind == NAME:
-        return f"name in `{field.names}`" if field.names else "name"
+        return f"name in `{field.section}`" if field.section else "name"
     if field.kind == MAPPING:
         entry_kind = field.entry.kind if field.entry else ""
         if field.keys:

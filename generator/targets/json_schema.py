@@ -166,8 +166,10 @@ def _make_record_schema(field: Field) -> Json:
         elif inner.kind == MAPPING:
             properties[inner.name]["minProperties"] = 1
     record = _make_object_schema(properties, _list_required_keys(field.fields))
-    if alternatives := [inner for inner in field.fields if inner.either]:
-        record["oneOf"] = [{"required": [name]} for inner in alternatives for name in (inner.name, inner.either)]
+    if alternatives := [inner for inner in field.fields if inner.alternative_key]:
+        record["oneOf"] = [
+            {"required": [name]} for inner in alternatives for name in (inner.name, inner.alternative_key)
+        ]
     roles = [inner.name for inner in field.fields if inner.kind == LAW]
     if roles:  # an inherited key is not required
         record["if"] = {"required": ["extends"]}

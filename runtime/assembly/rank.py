@@ -204,7 +204,7 @@ def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Ar
     n_rows = len(integrated)
     if compute_rank(integrated) == n_rows and compute_rank(np.concatenate([integrated, rows[extra]])) > n_rows:
         raise AssemblyError(
-            f"redundant with the file's values, but not with these: {_describe_equations(compiled, extra)}\n"
+            f"redundant with the file's values, but not with these: {_format_equation_names(compiled, extra)}\n"
             "  give the values in the file or as overrides of load(), so that redundant constraints are found again"
         )
 
@@ -228,7 +228,7 @@ def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> Solve
         t = float(trajectory.t[k])
         far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > MAX_REDUNDANT_VIOLATION * scale
         if far.any():
-            names = _describe_equations(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
+            names = _format_equation_names(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
             return SolverError(
                 f"the constraints contradict each other by t = {t:.9g} s: redundant before, and violated now:"
                 f" {names}\n  check the values of the drives and the lengths of parallel links",
@@ -237,7 +237,7 @@ def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> Solve
     return None
 
 
-def _describe_equations(compiled: CompiledModel, equation_indices: list[int]) -> str:
+def _format_equation_names(compiled: CompiledModel, equation_indices: list[int]) -> str:
     """Return the names of equations, of their joints, and of joints with indeterminate forces, as text.
 
     An example: "constraint equation C.x (joints C, D)".

@@ -218,7 +218,7 @@ def _make_sketches(
     and the file does not declare `freedoms`. The mobility is that of the first configuration.
     """
     from gudgeon.assembly.mobility import find_mobility
-    from gudgeon.drawing.failures import draw_free_motions
+    from gudgeon.drawing.failures import draw_degrees_of_freedom
     from gudgeon.drawing.layout import make_layout
     from gudgeon.drawing.sketch import compute_common_box, make_sketch
 
@@ -231,7 +231,7 @@ def _make_sketches(
     marked = mobility.unconnected_bodies or (mobility.freedoms and mechanism.freedoms is None)
     for configuration, layout in zip(configurations, layouts, strict=True):
         shapes, labels = (
-            draw_free_motions(problem, configuration, unit, mobility.unconnected_bodies) if marked else ([], [])
+            draw_degrees_of_freedom(problem, configuration, unit, mobility.unconnected_bodies) if marked else ([], [])
         )
         sketches.append(
             make_sketch(

@@ -117,11 +117,11 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
     `name` is the law's name or an alternative name, by which it is called and which may fix options. Equations are
     those of the default options; "choices" has those of other options that differ.
     """
-    from gudgeon.generator.targets.latex.law import derive_forms, print_equation
+    from gudgeon.generator.targets.latex.law import derive_equation_variants, print_equation
 
     first, *others = (
-        {"chosen": dict(form.selected), "equations": [print_equation(equation) for equation in form.equations]}
-        for form in derive_forms(law, name)
+        {"chosen": dict(variant.selected), "equations": [print_equation(equation) for equation in variant.equations]}
+        for variant in derive_equation_variants(law, name)
     )
     return {
         "law": law.name,
@@ -131,7 +131,7 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
         "also": [*law.also],
         "chosen": dict(law.also.get(name, {})),
         "equations": first["equations"],
-        "choices": [form for form in others if form["equations"]],
+        "choices": [variant for variant in others if variant["equations"]],
         "keys": [_build_key_document(field) for field in law.list_fields_of_name(name)],
         "states": {state.name: state.meaning for state in law.states},
         "validity": law.validity,

@@ -1,8 +1,8 @@
 """Run `gudgeon run`: simulate scenes, compare each with the ideal one, save and show the results.
 
 - `check_memory_and_disk` checks memory and disk for all scenes before the first run.
-- `verify_contacts` and `write_reports` implement `--verify` and `--report`. For a report each scene is run again, and
-  its result is saved again with the additional diagnostics.
+- `verify_contacts` and `write_scene_reports` implement `--verify` and `--report`. For a report each scene is run again,
+  and its result is saved again with the additional diagnostics.
 - `format_origin` and `check_origin` prevent that a result of another mechanism file of the same name is replaced. A
   result stores hashes of its mechanism file's path and bytes; one equal hash is sufficient. A result without hashes may
   be replaced.
@@ -264,7 +264,7 @@ def _write_results(request: RunRequest, simulations: Mapping[str, Simulation], o
             _save_results(request, some, outcome)
 
         report_arguments = outcome.files, outcome.write_errors, request.json
-        write_reports(runs, simulations, outcome.references, request.out, save, *report_arguments)
+        write_scene_reports(runs, simulations, outcome.references, request.out, save, *report_arguments)
     first = outcome.runs.get(IDEAL_SCENE) or next(iter([*outcome.references.values(), *outcome.runs.values()]))
     watch = request.watch or choose_default_series(first)
     reports = [compute_scene_report(run, outcome.references.get(scene), watch) for scene, run in runs.items()]
@@ -440,7 +440,7 @@ def verify_contacts(runs: dict[str, Result], failures: dict[str, GudgeonError], 
             failures.setdefault(scene, error)
 
 
-def write_reports(
+def write_scene_reports(
     runs: dict[str, Result],
     simulations: Mapping[str, Simulation],
     references: Mapping[str, Result],
@@ -450,9 +450,11 @@ def write_reports(
     write_errors: list[GudgeonError],
     quiet: bool,
 ) -> None:
-    """Examine each run, save it by `save` and write its report: path to `files`, error to `write_errors`.
+    """Run each scene again for the checks of the report, save the result and write the report as HTML.
 
-    `runs` then contains the examined runs. A run that Ctrl-C ended is reported without examination.
+    `examine` makes the additional runs; its results replace those in `runs` and are passed to `save` as {scene: run}.
+    A run that Ctrl-C ended is only reported: it is neither examined nor saved again. `files` gets the path of each
+    report, `write_errors` the error of a scene; the other scenes continue. `quiet`: no status line.
     """
     from gudgeon.simulation.examine import examine
 

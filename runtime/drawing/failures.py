@@ -1,4 +1,4 @@
-"""Draw the faults that `check` reports: joints that do not close, unconnected bodies, undriven motions."""
+"""Draw the faults that `check` reports: joints that do not close, unconnected bodies, degrees of freedom."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
 
 MIN_REPORTED_FRACTION = 1e-3  # fraction of the largest residual above which a residual is reported
-ARROW_LENGTH = 4.0  # units, of an arrow along a free motion
+ARROW_LENGTH = 4.0  # units, of an arrow along a degree of freedom
 MIN_MOTION_FRACTION = 1e-6  # fraction of the largest motion below which a body counts as fixed
 
 
@@ -71,13 +71,14 @@ def _compute_gap_line(configuration: Configuration, part: PartInfo, lengths: lis
     return np.array([begin + (float(np.hypot(*(end - begin))) - lengths[0]) * unit_vector(end - begin), end])
 
 
-def draw_free_motions(
+def draw_degrees_of_freedom(
     problem: AssemblyProblem, configuration: Configuration, unit: float, unconnected_bodies: tuple[str, ...]
 ) -> tuple[list[Shape], list[Label]]:
-    """Return arrows along the free motions of the bodies of a closed linkage, and labels.
+    """Return arrows along the degrees of freedom of a closed linkage that no drive prescribes, and labels.
 
-    Motions below MIN_MOTION_FRACTION of the largest one are not drawn. Bodies in `unconnected_bodies` have the label
-    "NAME is unconnected". `unit` is half a bar's width in m.
+    The arrows are motions of each body in the null space of the constraint Jacobian. Motions below MIN_MOTION_FRACTION
+    of the largest one are not drawn. Bodies in `unconnected_bodies` have the label "NAME is unconnected". `unit` is
+    half a bar's width in m.
     """
     motions = compute_admissible_velocities(problem.linkage, problem.p, configuration.q, problem.t)
     max_motion = float(np.abs(motions * np.where(problem.is_angle, problem.size, 1.0)[:, None]).max(initial=0.0))
@@ -110,9 +111,9 @@ def _draw_motion_arrows(
     """Yield double arrows along each direction in which the centre of a body can move, and a round arrow for a
     rotation.
 
-    `motions` (3, k) are the body's parts of k free motions. If the centre moves in both directions, the double arrows
-    are along x and y. With one direction no round arrow is drawn. A motion below `min_motion` (m) counts as none;
-    `size` (m) converts angles to lengths. `unit`: half a bar's width, m.
+    `motions` (3, k) are the body's parts of k motions in the null space of the constraint Jacobian. If the centre moves
+    in both directions, the double arrows are along x and y. With one direction no round arrow is drawn. A motion below
+    `min_motion` (m) counts as none; `size` (m) converts angles to lengths. `unit`: half a bar's width, m.
     """
     part, head_length = f"free {body}", HEAD_LENGTH * unit
     directions, singular_values, _ = np.linalg.svd(motions[:2], full_matrices=False)

@@ -97,42 +97,42 @@ def iterate_sliding_joints(configuration: Configuration) -> Iterator[PartInfo]:
     return (part for part in configuration.iterate_parts("joints") if get_joint_type(part).slides)
 
 
-def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
+def find_guide_and_slider(joint: PartInfo) -> tuple[str, str]:
     """Return the names of the guiding point and of the sliding point of a sliding joint.
 
     They are exchanged if the declared slider is the ground and the joint keeps the angle: the ground is then the guide.
     """
-    slides, (first_end, second_end) = get_joint_type(part).slides, part.ends
+    slides, (first_end, second_end) = get_joint_type(joint).slides, joint.ends
     assert slides is not None
     guide, slider = (first_end, second_end) if slides.guide == "first" else (second_end, first_end)
-    is_exchanged = get_joint_type(part).has_fixed_angle and get_body_name(slider) == GROUND
+    is_exchanged = get_joint_type(joint).has_fixed_angle and get_body_name(slider) == GROUND
     return (slider, guide) if is_exchanged else (guide, slider)
 
 
-def find_sliding_axis(configuration: Configuration, part: PartInfo) -> tuple[Array, Array, Array]:
+def find_sliding_axis(configuration: Configuration, joint: PartInfo) -> tuple[Array, Array, Array]:
     """Return a point on the line of a sliding joint, its direction (unit vector), and the sliding point, each (2,).
 
     Points are in m. The direction belongs to the body that the joint's kind declares as the guide, also if
     `find_guide_and_slider` exchanges the points.
     """
-    slides, (guide, slider) = get_joint_type(part).slides, find_guide_and_slider(part)
+    slides, (guide, slider) = get_joint_type(joint).slides, find_guide_and_slider(joint)
     assert slides is not None
-    axis_body = get_body_name(part.ends[0 if slides.guide == "first" else 1])
+    axis_body = get_body_name(joint.ends[0 if slides.guide == "first" else 1])
     return (
         configuration.get_position(guide),
-        configuration.compute_direction(part, slides.direction, axis_body),
+        configuration.compute_direction(joint, slides.direction, axis_body),
         configuration.get_position(slider),
     )
 
 
-def has_rail(part: PartInfo) -> bool:
+def has_rail(joint: PartInfo) -> bool:
     """Return whether a sliding joint's guide is the ground, so that it is drawn as a rail; False for other joints."""
-    return get_joint_type(part).slides is not None and get_body_name(find_guide_and_slider(part)[0]) == GROUND
+    return get_joint_type(joint).slides is not None and get_body_name(find_guide_and_slider(joint)[0]) == GROUND
 
 
-def is_block(part: PartInfo) -> bool:
+def is_block(joint: PartInfo) -> bool:
     """Return whether the slider cannot rotate in its guide."""
-    return get_joint_type(part).has_fixed_angle
+    return get_joint_type(joint).has_fixed_angle
 
 
 def find_pivot_joint(configuration: Configuration, body: str, other_body: str) -> PartInfo | None:
@@ -143,40 +143,40 @@ def find_pivot_joint(configuration: Configuration, body: str, other_body: str) -
     return None
 
 
-def compute_wall_gap(configuration: Configuration, part: PartInfo, unit: float) -> float:
+def compute_wall_gap(configuration: Configuration, joint: PartInfo, unit: float) -> float:
     """Return the drawn gap between slider and each wall of a guide, m: at least MIN_WALL_GAP units; 0 without play."""
     return (
-        max(MIN_WALL_GAP * unit, configuration.get_clearance(part.name)) if part.name in configuration.guides else 0.0
+        max(MIN_WALL_GAP * unit, configuration.get_clearance(joint.name)) if joint.name in configuration.guides else 0.0
     )
 
 
-def compute_guide_directions(configuration: Configuration, part: PartInfo) -> tuple[Array, Array]:
+def compute_guide_directions(configuration: Configuration, joint: PartInfo) -> tuple[Array, Array]:
     """Return the drawn directions of guide and slider of a sliding joint, two unit vectors.
 
     Both are equal without play. With play they differ by the tilt of the slider; the ground counts as the guide if it
     is one of the bodies.
     """
-    _, second = map(get_body_name, part.ends)
-    _, axis, _ = find_sliding_axis(configuration, part)
-    if part.name not in configuration.guides:
+    _, second = map(get_body_name, joint.ends)
+    _, axis, _ = find_sliding_axis(configuration, joint)
+    if joint.name not in configuration.guides:
         return axis, axis
-    tilt = _compute_tilt_in_guide(configuration, part)
+    tilt = _compute_tilt_in_guide(configuration, joint)
     tilted_axis = math.cos(tilt) * axis + math.sin(tilt) * rotate_quarter_turn(axis)
     return (tilted_axis, axis) if second == GROUND else (axis, tilted_axis)
 
 
-def _compute_tilt_in_guide(configuration: Configuration, part: PartInfo) -> float:
+def _compute_tilt_in_guide(configuration: Configuration, joint: PartInfo) -> float:
     """Return the tilt of the slider of a joint with play, in rad, within ±π.
 
     It is the angle of the second body relative to the first, less the mounting angle `angle` of the file, or the
     direction of `axis` if there is none.
     """
-    first, second = map(get_body_name, part.ends)
-    address = f"joints.{part.name}.angle"
+    first, second = map(get_body_name, joint.ends)
+    address = f"joints.{joint.name}.angle"
     if configuration.is_specified(address):
         angle = configuration.get_parameter(address)
     else:
-        angle = math.atan2(*(configuration.get_parameter(f"joints.{part.name}.axis.{axis}") for axis in "yx"))
+        angle = math.atan2(*(configuration.get_parameter(f"joints.{joint.name}.axis.{axis}") for axis in "yx"))
     return math.remainder(configuration.get_angle(second) - configuration.get_angle(first) - angle, 2.0 * math.pi)
 
 

@@ -260,7 +260,7 @@ def _format_condition_tables(source: KernelSource) -> list[str]:
         bound_indices += [source.parameter_indices[address] for address in condition.addresses]
     return [
         _format_c_array(
-            "struct { const char *address, *unit; int follows, chosen; }",
+            "struct { const char *address, *unit; int depends_on_parameters, chosen; }",
             "fmu_parameters",
             parameter_rows or ['{"", "", 0, 0}'],
         ),

@@ -102,13 +102,13 @@ class Lanes:
             if i != NO_RUN:
                 runs.integrate_run_to_end(i, storages[k], step_logs[k] if step_logs else None)
 
-    def compute_kinematic_runs(self, batch: int, storages: Sequence[int], indices: NDArray[np.int_]) -> None:
+    def compute_kinematic_runs(self, batch: int, memory_addresses: Sequence[int], indices: NDArray[np.int_]) -> None:
         """Compute kinematic runs in the lanes, in the calling thread.
 
-        `batch`: address of C's struct KinematicBatch; `storages`: addresses of the memory of each lane (`count` of
-        them); `indices`: those of the runs.
+        `batch`: address of C's struct KinematicBatch; `memory_addresses`: addresses of the memory of each lane (`count`
+        of them); `indices`: those of the runs.
         """
-        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", address) for address in storages])
+        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", address) for address in memory_addresses])
         numbers = make_pointer(self.ffi, indices, "long *")
         self.lib.gudgeon_kinematic_lanes(self.ffi.cast("void *", batch), self.single, pointers, len(indices), numbers)
 

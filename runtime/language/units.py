@@ -265,7 +265,11 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
 
 
 def _compute_unit_power(base: Unit, power: Fraction) -> Unit | None:
-    """Return a unit raised to a whole or half power; None for a root of a unit that contains π."""
+    """Return a unit raised to a whole or half power; None for a root of a unit that contains π.
+
+    The factor of a root is a fraction, rounded down to 60 decimals. The power of π in a unit is an integer, so that
+    roots of π cannot be stored.
+    """
     if power.denominator == 1:
         return Unit(base.factor ** int(power), base.pi_power * int(power), base.dimension**power)
     if base.pi_power:

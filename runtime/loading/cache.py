@@ -1,4 +1,4 @@
-"""Store compiled libraries and derived sources in a cache on disk: entries are complete or absent, and created once.
+"""Store compiled libraries and generated C sources in a cache on disk, each entry created by one process only.
 
 An entry is a folder `<kind>/<key>/` with a list of checksums. It is written in a temporary folder under a lock, and
 moved into place by one rename (atomically), so that a killed process leaves no incomplete entry. Reading needs no lock

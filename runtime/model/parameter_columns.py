@@ -68,7 +68,7 @@ class ParameterColumns:
         )
         self.p = np.tile(compiled.prepare(values, is_fixed), (n_rows, 1))
         self.p_motion = self.p.copy() if gains else self.p
-        self._has_partial_expressions = bool(list_possibly_undefined_expressions(source))
+        self._has_possibly_undefined_expressions = bool(list_possibly_undefined_expressions(source))
         self.x = np.zeros(len(names))  # values of the next run
         self.x_pointer = compiled.pointer(self.x)
         self._row_pointers = [
@@ -109,7 +109,7 @@ class ParameterColumns:
     @property
     def needs_python(self) -> bool:
         """Return whether `compute_values_of_row` needs Python: choices of names, expressions that may be undefined."""
-        return self._has_choices or self._has_partial_expressions
+        return self._has_choices or self._has_possibly_undefined_expressions
 
     def compute_values_of_row(self, x: Array, k: int) -> bool:
         """Compute row k of `p` and `p_motion` from x (n_names,), and return whether the values are valid.
@@ -133,15 +133,16 @@ class ParameterColumns:
             null = self.compiled.ffi.NULL
             is_valid = self.compiled.lib.gudgeon_set_parameters(self.struct, null, *self._row_pointers[k])
         return is_valid and not (
-            self._has_partial_expressions
+            self._has_possibly_undefined_expressions
             and describe_undefined_part(self.source, self.p[k], self._is_given[0, : len(self.source.parameters)])
         )
 
 
-def check_parameter_names(names: Any, fixed: Any) -> tuple[tuple[str, ...], dict[str, Any]]:
-    """Return the checked arguments `parameters` and `fixed`: names in their order, and a mapping.
+def check_parameter_arguments(names: Any, fixed: Any) -> tuple[tuple[str, ...], dict[str, Any]]:
+    """Return the checked arguments `parameters` and `fixed` of a prepared run: names in their order, and a mapping.
 
-    Raises BadValueError for a name that is given twice.
+    Raises an error for arguments of another type, and BadValueError for a name twice in `parameters`, or in both.
+    Called when a run is prepared (`Simulation.prepare`).
     """
     checked = tuple(check_names(names, "parameters", "a list of addresses or parameter names"))
     constants = dict(check_mapping(fixed, "fixed", "{address or parameter name: a float in SI, or '0.5 mm'}"))

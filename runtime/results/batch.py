@@ -125,7 +125,7 @@ class Batch:
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
     extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, of the series in `peaks`
-    rubbed: tuple[
+    sliding_loads: tuple[
         tuple[SlidingLoads, ...], ...
     ] = ()  # loads of the surfaces for wear, where a study needs them; not saved
 
@@ -392,8 +392,9 @@ def collect_given_columns(batch: Batch) -> dict[str, Array]:
 def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     """Return the named series of all runs, (n, N) each, by name; NaN where a run has no sample.
 
-    Series that the batch stores are its own arrays, columns of states are copied, and other series are evaluated in
-    threads. Raises UnknownNameError, GudgeonError for a series that was not stored, SingularError.
+    Series that the batch stores are returned without a copy, columns of states are copied, and other series are
+    evaluated in threads. Called by `Batch[name]` and for the export to NetCDF and MAT files. Raises UnknownNameError,
+    GudgeonError for a series that was not stored, SingularError.
     """
     names = check_series_names(batch.source, names)
     check_series_stored(batch, names)

@@ -153,7 +153,7 @@ class Diagnostics:
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series in `peaks`
     examined: Examination | None = None  # results of additional runs, for a report; None: not requested
     audit: tuple[Finding, ...] = ()  # largest value of each check, as a multiple of its limit; empty: switched off
-    rubbed: tuple[SlidingLoads, ...] = ()  # over all steps, of joints whose wear was requested; not saved
+    sliding_loads: tuple[SlidingLoads, ...] = ()  # over all steps, of joints whose wear was requested; not saved
 
     def peak(self, joint: str) -> Peak:
         """Return the largest force at a joint with play over all steps, with time, eccentricity and first contact.
@@ -172,10 +172,12 @@ class Diagnostics:
         """Return the diagnostics as JSON without NaN or infinity, which RFC 8259 lacks: they are the words "nan",
         "inf", "-inf".
 
-        A float has as many digits as an exact reading needs.
+        A float has as many digits as an exact reading needs. `extremes`, `examined` and `audit` are left out if they
+        are empty; `sliding_loads` is always left out.
         """
-        data = asdict(replace(self, rubbed=()))
-        for name in ("extremes", "examined", "audit", "rubbed"):
+        data = asdict(replace(self, sliding_loads=()))
+        del data["sliding_loads"]
+        for name in ("extremes", "examined", "audit"):
             if not data[name]:
                 del data[name]
         return json.dumps(_convert_to_json_values(data), ensure_ascii=False, allow_nan=False)
@@ -199,9 +201,11 @@ class Diagnostics:
 
     def __str__(self) -> str:
         """Return the diagnostics as aligned lines, one for each quantity, peak, series and note."""
-        lists = ("peaks", "notes", "extremes", "examined", "audit", "rubbed")
+        lists = ("peaks", "notes", "extremes", "examined", "audit", "sliding_loads")
         lines = [
-            f"{name:>30}  {value}" for name, value in asdict(replace(self, rubbed=())).items() if name not in lists
+            f"{name:>30}  {value}"
+            for name, value in asdict(replace(self, sliding_loads=())).items()
+            if name not in lists
         ]
         lines += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
         lines += [

@@ -59,7 +59,7 @@ class DifferenceNorm:
         return DifferenceNorm(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
 
     def is_run_too_short(self, run: Result) -> bool:
-        """Return whether a run ends before anything turns, so that a Lyapunov exponent would be meaningless.
+        """Return whether a run ends before the motion could reverse, so that its Lyapunov exponent has no meaning.
 
         Such a run has no contact and does not cross the mechanism's size. It ends before its accelerations could stop
         it (rms speed over rms acceleration), or before they change.

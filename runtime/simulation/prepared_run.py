@@ -37,7 +37,7 @@ from gudgeon.language.quantities import has_names
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array
 from gudgeon.model.evaluation import check_sample_memory
-from gudgeon.model.parameter_columns import ParameterColumns, check_parameter_names
+from gudgeon.model.parameter_columns import ParameterColumns, check_parameter_arguments
 from gudgeon.model.parameters import insert_space_before_unit
 from gudgeon.results.batch import check_series_names
 from gudgeon.simulation.arguments import (
@@ -101,7 +101,7 @@ class RunSetup:
         )
         source = scene.source
         method = select_method(source, settings["method"], step is not None)
-        checked_names, constants = check_parameter_names(names, fixed)
+        checked_names, constants = check_parameter_arguments(names, fixed)
         scene.compiled.lib.wait_for_optimized_library()
         return RunSetup(
             scene,

@@ -226,16 +226,18 @@ class _Starts:
         uniform_values = (
             None if self.states or contours else read_runs_with_equal_names(simulation.source, rows)
         )  # not None: no run has notes on choices
-        self.remarks: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
+        self.notes_of_starts: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
         self._merged_inputs: tuple[object, ...] = (self, self)  # of the last run: its parameters, those of its state
         self.given: Array
         self.is_given: Any
         self.given, self.is_given = uniform_values or read_parameters_of_runs(rows, self._merge_parameters)
 
     def _merge_parameters(self, i: int, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
-        """Return values and mask (n_parameters,) of the parameters given for run i, and append its notes to `remarks`.
+        """Return values and mask (n_parameters,) of the parameters that are given for run i, and append its notes.
 
-        Values of its start state and of its contour are included.
+        Given are the entries of `parameters`, those of the start state of the run, and its contour; other values are
+        not set. The notes go to `notes_of_starts`. The result of the last run is returned again if the inputs are the
+        same objects and no contours are given.
         """
         state = self.states[i] if self.states else None
         inputs = parameters, state.parameters if state else None
@@ -243,8 +245,8 @@ class _Starts:
             contours = select_contours_of_run(self.contours, i)
             self._merged = merge_parameters(self.compiled, state, parameters, contours)
             self._merged_inputs = inputs
-        given, is_given, remarks = self._merged
-        self.remarks.append(remarks)
+        given, is_given, notes = self._merged
+        self.notes_of_starts.append(notes)
         return given, is_given
 
     def find_runs_with_invalid_start(self, p: Array, failures: Mapping[int, Any]) -> dict[int, Any]:
@@ -264,7 +266,7 @@ class _Starts:
             try:
                 if has_journal_positions:
                     check_journal_positions(self.compiled, p[i])
-                elif self.remarks[i]:
+                elif self.notes_of_starts[i]:
                     check_resumed_state(self.compiled, self.states[i], p[i])
             except AssemblyError as error:
                 errors[i] = error
@@ -361,7 +363,7 @@ class _Results:
 
     def _build_problem(self, i: int) -> Problem:
         """Return the Problem of run i with the notes on its start: choices, violated constraints, deep journals."""
-        problem, t0, remarks = self.runs.build_problem(i), self.starts.t, self.starts.remarks[i]
+        problem, t0, remarks = self.runs.build_problem(i), self.starts.t, self.starts.notes_of_starts[i]
         state = problem.q, problem.v
         if self.starts.states:
             remarks += build_violation_notes(problem.compiled, problem.p, t0, *state)
@@ -402,7 +404,7 @@ class _Results:
         may_be_outside = may_exceed_validity_range(source, arrays["p"], size, counted["phi_max"], peaks) & (
             arrays["done"] > 0
         )
-        notes_by_run = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
+        notes_by_run = {i: remarks for i, remarks in enumerate(self.starts.notes_of_starts) if remarks}
         for i in np.flatnonzero(may_be_outside).tolist():
             q0, counts, t0 = arrays["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
             range_notes = yield_range_notes(self.simulation.compiled, arrays["p"][i], t0, q0, counts, peaks[i])
@@ -470,5 +472,5 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         if stored_series
         else {},
         extremes=tuple(observation.extremes for observation in results.observations),
-        rubbed=tuple(observation.sliding_loads for observation in results.observations),
+        sliding_loads=tuple(observation.sliding_loads for observation in results.observations),
     )

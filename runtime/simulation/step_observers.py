@@ -76,7 +76,9 @@ class Observation:
     def store_in(self, run: Result) -> None:
         """Store the findings in the diagnostics of a run, in place; notes are appended."""
         notes = (*run.diagnostics.notes, *self.notes)
-        run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes, rubbed=self.sliding_loads)
+        run.diagnostics = replace(
+            run.diagnostics, extremes=self.extremes, notes=notes, sliding_loads=self.sliding_loads
+        )
 
 
 def make_observer(

@@ -1,4 +1,6 @@
-"""Select the kinematic runs of a batch that Python must check: those that the audit in C reports, or all.
+"""Select the kinematic runs of a batch that Python must check: those with an error in the audit in C, or all runs.
+
+All runs are checked if C cannot decide: with `audit="full"`, resumed runs, redundant equations or periodic drives.
 
 C audits the samples of kinematic runs as `audit.SampleAudit` does (engine/kinematic/ensemble.c), and finds samples that
 are not finite, at change points, or with steep accelerations. Only those runs are evaluated in full.

@@ -107,7 +107,7 @@ def wear(
     repetition = repeat_run_exactly(simulation, run, run.t, progress, (requested,))
     if repetition is None:
         raise GudgeonError(NOTE_NOT_REPEATABLE)
-    return _build_wear(run, repetition.diagnostics.rubbed[0], rates, law)
+    return _build_wear(run, repetition.diagnostics.sliding_loads[0], rates, law)
 
 
 def _build_sliding_request(

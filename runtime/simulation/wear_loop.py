@@ -189,7 +189,7 @@ class WearLoop:
         work, journal = np.full(n, np.nan), np.full_like(depth, np.nan)
         sizes = self.sizes.setdefault(joint, _JointSizes(*np.full((3, n), np.nan)))
         for i in (i for i in range(n) if i not in self.failures):
-            loads = batch.rubbed[i][index]
+            loads = batch.sliding_loads[i][index]
             depth[i], contour_depth[i] = self.wear_model.compute_depths(loads, n_angles)
             work[i] = (loads.load if self.wear_model.law == LAWS[0] else loads.friction)[0].sum()
             journal[i] = self.wear_model.scale * loads.compute_depth(1, self.wear_model.law, self.wear_model.rate)

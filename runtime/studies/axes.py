@@ -142,10 +142,11 @@ def _find_choice_parameter(source: KernelSource, name: str) -> RuntimeParameter 
 
 
 def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
-    """Return the indices into the scene's parameter vector that the axis `name` sets; the first has the axis's values.
+    """Return the indices into the scene's parameter vector that the axis `name` sets.
 
-    name: "clearance", a group (stiffness, viscosity, gains) or an address. Raises BadValueError if the scene has no
-    parameter of the group, UnknownNameError for an unknown address.
+    The values of the axis are those of the first parameter; the others keep their ratio to it (`make_axis`). name:
+    "clearance", a group (stiffness, viscosity, gains) or an address: then the list has one index. Raises BadValueError
+    if the scene has no parameter of the group, UnknownNameError for an unknown address.
     """
     if name == "clearance":
         indices = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.parameters)))

@@ -349,7 +349,10 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 
 
 def _make_acceleration_question(subject: Subject) -> Question:
-    """Build the question for the largest acceleration, preferably angular, of a coordinate that no drive prescribes."""
+    """Build the question for the largest acceleration at the time of the exercise: of an angle without a drive.
+
+    If these angles are at rest, of any coordinate without a drive, or of any. The solution shows Φ_q a = γ by rows.
+    """
     model, exercise, compiled = subject.model, subject.exercise, subject.simulation.compiled
     a, driven = exercise.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
     candidates = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
@@ -386,8 +389,7 @@ def _make_acceleration_question(subject: Subject) -> Question:
         *_tabulate_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
         subject.make_value_equation(symbol_names[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
-    coordinate = subject.simulation.source.coordinates[k]
-    return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
+    return Question("Accelerations", tuple(requested), tuple(solved), {compiled.source.coordinates[k]: float(a[k])})
 
 
 def _format_omission(n_rows: int) -> str:

@@ -47,9 +47,9 @@ def build_page(simulation: Simulation, scenes: Mapping[str, str] | None = None) 
 def build_page_parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
     """Return the HTML parts that make the equations' page of a scene interactive.
 
-    Without the compiler (extra `web`) they contain one recorded run at the file's values instead of a simulator. With a
-    small simulator the full formulation, in which constraints drift, is included. Arguments and errors as for
-    `build_page`.
+    Without the compiler (extra `web`) they contain one recorded run at the file's values instead of a simulator. If the
+    module of the simulator has at most MAX_MODULE_BYTES bytes, the parts also contain the full formulation, in which
+    constraints drift. Raises GudgeonError without matplotlib. Other arguments and errors are those of `build_page`.
     """
     import gudgeon.results.figures.plots  # noqa: F401 (raises GudgeonError without matplotlib)
     from gudgeon.web.page_parts import build_simulator_parts

@@ -21,7 +21,7 @@ from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws, fi
 from gudgeon.generator.marked_text import MarkedText, get_markdown
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.document import Equation
-from gudgeon.generator.targets.latex.law import GIVEN, derive_forms, print_equation
+from gudgeon.generator.targets.latex.law import GIVEN, derive_equation_variants, print_equation
 from gudgeon.generator.targets.latex.law_page import list_laws_of_role, make_example, print_laws_page
 from gudgeon.generator.targets.latex.law_symbols import list_symbol_rows
 from gudgeon.generator.targets.latex.letters import make_name_from_latex
@@ -101,7 +101,7 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
     known |= {LETTERS.get(key, key): value for key, value in state.items()}
     if "ratio" in state:  # it is written as a fraction
         known[dots_apart("δ̇") + "⁻"] = STATES["deltadot"] / STATES["ratio"]
-    first, *others = derive_forms(law, name)
+    first, *others = derive_equation_variants(law, name)
     for form in (first, *others):
         changed = ((), ()) if form is first else (form.constants, form.evaluated)
         letters = {
@@ -154,7 +154,7 @@ def test_dampings_are_cited(call: Gudgeon) -> None:
 
 
 def test_a_film_tells_its_shear_torque_and_what_is_nothing_without_it() -> None:
-    first, *others = derive_forms(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
+    first, *others = derive_equation_variants(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
     assert [form.selected for form in others if form.equations] == [{"as_printed": True}, {"shear": True}]
     assert not [one for one in first.equations if print_equation(one).endswith(" = 0")]
 

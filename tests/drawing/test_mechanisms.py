@@ -15,7 +15,7 @@ pytest.importorskip("matplotlib")
 from gudgeon.assembly.branches import find_assemblies  # noqa: E402
 from gudgeon.assembly.mobility import compute_admissible_velocities, find_mobility  # noqa: E402
 from gudgeon.drawing.configuration import Configuration  # noqa: E402
-from gudgeon.drawing.failures import draw_free_motions, draw_gaps  # noqa: E402
+from gudgeon.drawing.failures import draw_degrees_of_freedom, draw_gaps  # noqa: E402
 from gudgeon.drawing.labels import NameLabels  # noqa: E402
 from gudgeon.drawing.layout import make_layout  # noqa: E402
 from gudgeon.drawing.picture import build_figure, encode_figure  # noqa: E402
@@ -175,7 +175,7 @@ def test_what_may_move_is_told_by_arrows_along_it() -> None:
     mobility = find_mobility(linkage, linkage.p, configuration.q)
     assert motions.shape[1] == mobility.freedoms == 5 and mobility.unconnected_bodies == ("stray",)
     assert np.abs(linkage.closed_phi_q(0.0, configuration.q, linkage.p) @ motions).max() < 1e-12
-    shapes, labels = draw_free_motions(found.problem, configuration, 1e-3, mobility.unconnected_bodies)
+    shapes, labels = draw_degrees_of_freedom(found.problem, configuration, 1e-3, mobility.unconnected_bodies)
     heads = {part: [s for s in shapes if s.part == part and s.role == "free head"] for part in {s.part for s in shapes}}
     assert {part: len(found) for part, found in heads.items()} == {"free coupler": 2, "free stray": 5, "free block": 2}
     assert [label.part for label in labels] == ["free stray"]

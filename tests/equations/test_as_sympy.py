@@ -12,7 +12,7 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.pycode import PythonCodePrinter
 
 from gudgeon.generator.symbols.derivatives import differentiate, find_operation_classes, find_symbols
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.symbols.switches import Select
 from gudgeon.generator.symbols.symbol_sums import add_products, is_signed_symbol, subtract_products
 from gudgeon.generator.targets.cached_printer import CachedPrinter
@@ -96,8 +96,8 @@ def test_sums_of_products_of_random_factors() -> None:
     rng = random.Random(52)
     symbols = [
         *sp.symbols("b9 b10 a a_1 Z", real=True),
-        PlaceSymbol(StorageLocation("p")["mass"]),
-        PlaceSymbol(StorageLocation("x")[3]),
+        StoredSymbol(StorageLocation("p")["mass"]),
+        StoredSymbol(StorageLocation("x")[3]),
     ]
     others = [sp.Integer(0), sp.Integer(1), sp.Integer(-1), sp.Rational(1, 2), x + y, x**2, sp.sin(x), sp.Symbol("a")]
 
@@ -137,6 +137,6 @@ def test_texts_of_sums_of_products_of_symbols() -> None:
 
 
 def test_a_symbol_of_a_place_is_pickled_with_its_place() -> None:
-    symbol = PlaceSymbol(StorageLocation("rhs")["clearance"][0]["Fx"])
+    symbol = StoredSymbol(StorageLocation("rhs")["clearance"][0]["Fx"])
     copy = pickle.loads(pickle.dumps(symbol))
-    assert copy == symbol and copy.place == symbol.place and copy.name == "rhs.clearance[0].Fx"
+    assert copy == symbol and copy.storage_location == symbol.storage_location and copy.name == "rhs.clearance[0].Fx"

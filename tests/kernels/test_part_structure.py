@@ -11,7 +11,7 @@ from gudgeon.generator.ir import part_structure
 from gudgeon.generator.ir.expression_structure import find_expression_structure
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.pipeline import generate_kernel_source
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation, make_real_symbol
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol, make_real_symbol
 from gudgeon.generator.targets.c import equal_parts
 from gudgeon.generator.targets.c.lanes_printer import LanesPrinter
 from gudgeon.generator.targets.c.printer import CPrinter
@@ -48,7 +48,7 @@ def test_expressions_printed_by_structure_have_the_text_of_direct_printing(print
     random = np.random.default_rng(5)
     texts = set()
     for _ in range(400):
-        symbols = [*map(make_real_symbol, NAMES), *map(PlaceSymbol, PLACES)]
+        symbols = [*map(make_real_symbol, NAMES), *map(StoredSymbol, PLACES)]
         random.shuffle(symbols)
         expression = make_expression(random, symbols[:4], 3)
         readable = Readable((), {"c10": "c_", "x": StorageLocation("p")["x"]})

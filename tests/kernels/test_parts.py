@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from gudgeon.generator.ir import sine_pairs
+from gudgeon.generator.ir import sine_groups
 from gudgeon.generator.ir import split as parts
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.split import order_statements_near_readers
 from gudgeon.generator.ir.statements import Call, Declare, Instruction, Statement
 from gudgeon.generator.pipeline import generate_kernel_source
-from gudgeon.generator.symbols.storage import PlaceSymbol, StorageLocation
+from gudgeon.generator.symbols.storage import StorageLocation, StoredSymbol
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import find_shipped_file
@@ -43,7 +43,7 @@ def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulatio
 
 def shorten(monkeypatch: pytest.MonkeyPatch) -> None:
     """Everything is long, and has many angles."""
-    monkeypatch.setattr(sine_pairs, "_MAX_VECTORS", 1)
+    monkeypatch.setattr(sine_groups, "_MAX_VECTORS", 1)
     for name, value in (("_MAX_LINES", 30), ("_MAX_PART_LINES", 17), ("_MIN_PART_LINES", 5)):
         monkeypatch.setattr(parts, name, value)
 
@@ -108,7 +108,10 @@ def test_a_short_kernel_is_its_only_part() -> None:
 
 def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     shorten(monkeypatch)
-    a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [PlaceSymbol(StorageLocation("b")[k]) for k in range(2)]
+    a, b = (
+        [sp.Symbol(f"a{k}", real=True) for k in range(40)],
+        [StoredSymbol(StorageLocation("b")[k]) for k in range(2)],
+    )
     first = Statement("a0", StorageLocation("x")[0])
     front: tuple[Instruction, ...] = (Declare(Number.INTEGER, "b", (2,)), Call("fill", (), (StorageLocation("b"),)))
     plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
@@ -119,7 +122,7 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     # every statement but the first reads b, which only the call knows: nothing may move
     assert parts.split_kernel(kernel) == (kernel,)
     front = (Declare(Number.REAL, "c", (2,)), Call("fill", (), (StorageLocation("c"),)))
-    c = [PlaceSymbol(StorageLocation("c")[k]) for k in range(2)]
+    c = [StoredSymbol(StorageLocation("c")[k]) for k in range(2)]
     free = [first, *(Statement(f"a{k}", a[k - 1] * (k + 1) + c[k % 2]) for k in range(1, 40))]
     *pieces, main = parts.split_kernel(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]

@@ -74,7 +74,7 @@ def test_the_tree_of_a_long_chain_is_the_cheapest_of_all_candidates() -> None:
     """With more than 24 angles costly trees get a lower bound: the tree found, and its cost, are exact."""
     model = make_chain(30)
     tree = choose_tree(model)
-    estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.shared_points)
+    estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.multiple_joints)
     assert estimate(tree.edges) == min(tree.costs)
     assert len(tree.costs) == 5 and tree.costs[0] > min(tree.costs)
 

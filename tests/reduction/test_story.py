@@ -193,7 +193,7 @@ def test_the_tree_taken_is_the_cheapest() -> None:
     """The estimate, made anew of the tree that was taken, is the least of the story's."""
     model, simulation = shipped("nine_bar_press", "ideal")
     tree = choose_tree(model)
-    estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.shared_points)
+    estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.multiple_joints)
     costs = simulation.source.reduction_log.costs
     assert estimate(tree.edges) == min(costs) < costs[0]
 

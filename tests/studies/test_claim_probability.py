@@ -122,7 +122,7 @@ def test_ensembles_that_contradict_each_other_decide_nothing() -> None:
         judge_claim([larger(A, B)], runs(a=own, b=other))
         for own, other in (([1.0] * 20, [2.0] * 20), ([2.0] * 20, [1.0] * 20))
     )
-    assert (rises.verdict, falls.verdict) == ("holds", "fails") and rises.denied == {"fails"}
+    assert (rises.verdict, falls.verdict) == ("holds", "fails") and rises.excluded_verdicts == {"fails"}
     whole, agreed = merge_verdicts([rises, rises, falls])
     assert not agreed and whole.verdict == "undecided" and whole.probability == pytest.approx(2 / 3)
     few = judge_claim([larger(A, B)], runs(a=[1.0] * 4, b=[2.0] * 4))

@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.model.compiled import Array
-from gudgeon.studies.ensemble import subtracted_series
+from gudgeon.studies.ensemble import reference_series
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 
@@ -126,10 +126,10 @@ def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pyt
         "measures": {"a": {"deviation": "slider.ax", "from": "ideal"}, "x": {"rms": "slider.x", "from": "ideal"}},
     }
     found = []
-    ways: list[Any] = [subtracted_series._compute_kinematic_series, lambda *arguments: {}]
+    ways: list[Any] = [reference_series._compute_kinematic_series, lambda *arguments: {}]
     for follow in ways:
-        monkeypatch.setattr(subtracted_series, "_recent", subtracted_series.SeriesCache())
-        monkeypatch.setattr(subtracted_series, "_compute_kinematic_series", follow)
+        monkeypatch.setattr(reference_series, "_recent", reference_series.SeriesCache())
+        monkeypatch.setattr(reference_series, "_compute_kinematic_series", follow)
         found.append(gudgeon.study(study).dataset)
     assert (found[0]["x"] == found[1]["x"]).all() and float(found[0]["x"].min()) > 0.0
     np.testing.assert_allclose(found[0]["a"], found[1]["a"], rtol=1e-12)
@@ -138,19 +138,19 @@ def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pyt
 def test_the_other_scene_is_run_once_for_its_own_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two speeds decide the ideal crank; clearances and starts, which it does not read, do not."""
     made: list[Array] = []
-    before = subtracted_series._compute_kinematic_series
+    before = reference_series._compute_kinematic_series
 
     def count(job: Any, simulation: Any, alike: Any, runs: list[int], expected: list[str]) -> Any:
         made.extend(alike.columns["parameters.omega"][runs])
         return before(job, simulation, alike, runs, expected)
 
-    monkeypatch.setattr(subtracted_series, "_compute_kinematic_series", count)
-    monkeypatch.setattr(subtracted_series, "_recent", subtracted_series.SeriesCache())
+    monkeypatch.setattr(reference_series, "_compute_kinematic_series", count)
+    monkeypatch.setattr(reference_series, "_recent", reference_series.SeriesCache())
     monkeypatch.setattr("gudgeon.studies.ensemble.resolve.MAX_BLOCK_RUNS", 5)
     found = gudgeon.study(CRANK | {"scenes": "dry", "keep": []})
     assert found.runs == 12 and sorted(made) == sorted({*found.dataset["omega"].values})
-    monkeypatch.setattr(subtracted_series, "MAX_CACHE_BYTES", 0)
-    monkeypatch.setattr(subtracted_series, "_recent", subtracted_series.SeriesCache())
+    monkeypatch.setattr(reference_series, "MAX_CACHE_BYTES", 0)
+    monkeypatch.setattr(reference_series, "_recent", reference_series.SeriesCache())
     again = gudgeon.study(CRANK | {"scenes": "dry", "keep": []})
     np.testing.assert_array_equal(again.dataset["x"], found.dataset["x"])
     assert len(made) > 4

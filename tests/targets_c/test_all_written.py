@@ -60,7 +60,7 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "linearize": {"lin->value": "N_VALUES"},
     "newton_factor": {"lin->lu": "N_FACTORS"},
     "newton_factor_complex": {"lin->lu": "2 * N_FACTORS"},
-    "closing_step": {"dq": "N_X", "dv": "N_X"},
+    "compute_closure_step": {"dq": "N_X", "dv": "N_X"},
     "close_step": {"step": "N_X", "rates": "N_X"},
     "compute_body_motion": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
     "project": {"x": "N_Q"},
@@ -116,7 +116,10 @@ class Emitted:
         unused = re.search(r"short unused_switch\[\] = \{([^}]*)\}", self.header)
         joints |= {int(k) for k in unused[1].split(",")} if unused else set()  # NaN in motion()
         message = joints | {
-            int(k) for name in (main, "loop_switches") if name in self.bodies for k in SWITCH.findall(self.body(name))
+            int(k)
+            for name in (main, "evaluate_loop_switching_functions")
+            if name in self.bodies
+            for k in SWITCH.findall(self.body(name))
         }
         if left := sorted(set(range(count)) - message):
             yield f"{main}: rhs->g{left} of N_SWITCHES"

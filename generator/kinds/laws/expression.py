@@ -56,7 +56,7 @@ LAW = Law(
             "force",
             "elastic force, an expression of the penetration `delta`, of parameters and of curves",
             FORCE,
-            symbol=r"f_{\delta}",
+            symbol=r"F_{\mathrm{el}}",
             required=True,
             varies=OF_PENETRATION,
         ),

@@ -104,8 +104,9 @@ LAW = Law(
     "(1977) 198--214",
     validity=MarkedText(
         r"for $L/(2R_j)$ from 0.1 to 2 and $\varepsilon$ up to 0.95, the force deviates from Reynolds' equation by at "
-        r"most 1.2 % of the largest force at that $\varepsilon$; in steady rotation it deviates by at most 2 % "
-        r"of the force itself; up to $L/(2R_j)$ = 3 and $\varepsilon$ = 0.9985 these limits are 3 % and 4 %"
+        r"most 1.2 % of the largest force at that $\varepsilon$; in steady rotation, the force deviates from Reynolds' "
+        r"equation by at most 2 % of its own value; up to $L/(2R_j)$ = 3 and $\varepsilon$ = 0.9985 these limits are "
+        r"3 % and 4 %"
     ),
     properties=LARGE_ECCENTRICITY,
     limits=Limits(l_over_d=(0.1, 2.0), epsilon=0.95),

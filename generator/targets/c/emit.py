@@ -35,6 +35,7 @@ from gudgeon.generator.targets.c.reduced_summary import describe_reduced_file
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # functions of the closed linkage that a start does not call
 MAX_INLINE_COMPARISONS = 500  # parameters that are compared in one expression; more are compared in a loop
+WHOLE_STRUCT = ""  # in place of a member: the whole struct Parameters is read or passed
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
 PartCallback = Callable[[int, Mapping[str, str]], None]
 FilePrinters = dict[str, Callable[[], str]]  # file -> function that prints it, called when needed
@@ -326,13 +327,14 @@ def print_start_parameter_comparison(kernels: Iterable[Kernel]) -> str:
 
 
 def _list_parameters_read(line: Instruction) -> list[str]:
-    """Return the members of Parameters that a line copies to locals.
+    """Return the members of the struct Parameters that a line of a kernel copies to locals.
 
-    [] is returned for a line that reads none, [""] for a line that reads or passes the struct otherwise.
+    [] is returned for a line that reads none, [WHOLE_STRUCT] for a line that reads or passes the struct otherwise. Used
+    to compare only those members that the start of a run depends on; with WHOLE_STRUCT no comparison is possible.
     """
     if isinstance(line, Statement) and isinstance(line.value, StorageLocation) and line.value.is_parameter:
         return [line.value.member]
-    return [""] if PARAMETERS in line.reads else []
+    return [WHOLE_STRUCT] if PARAMETERS in line.reads else []
 
 
 Render = Callable[..., str]  # of a template by name and substitutions, or of kernels

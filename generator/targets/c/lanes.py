@@ -16,7 +16,7 @@ from gudgeon.generator.targets.c.newton import STATE, print_shared_force_derivat
 from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, print_state_rates
 
 MAIN = "lanes.c"
-_KERNELS = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
+_KERNELS = ("closures", "closure_rates", "reduced_dynamics", "compute_closure_step")
 _SELECT_SLOPES = """
 /* Replace the forces and derivatives in `a` by those in `b` in the lanes of a mask. */
 static inline void select_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)

@@ -16,7 +16,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.readable import make_readable, make_readable_statements
 from gudgeon.generator.ir.series_rules import ROW_LENGTH, StoreRow
 from gudgeon.generator.ir.signatures import Number, Type, make_output_argument
-from gudgeon.generator.ir.sine_pairs import call_sines_by_lane
+from gudgeon.generator.ir.sine_groups import call_sines_by_lane
 from gudgeon.generator.ir.statements import (
     Call,
     Declare,
@@ -163,7 +163,9 @@ class LaneLinePrinter(functions.LinePrinter):
         match line:
             case Branch():
                 declaration = f"{'const Lanes ' * bool(line.declared_local)}{self.printer.get_name(line.target)}"
-                branch, then, otherwise = map(self.print_expression, (line.branch, line.value_above, line.value_below))
+                branch, then, otherwise = map(
+                    self.print_expression, (line.active_branch, line.value_above, line.value_below)
+                )
                 return [f"{declaration} = select_value({branch} < 0.0, {otherwise}, {then});"]
             case Guard(test=Test() as test, condition=None):
                 return [f"*needs_scalar |= ~({self.print_test(test)});"]

@@ -73,7 +73,10 @@ def _find_stores(text: Sequence[str], line: Instruction | str | None, first_line
         return [StoredLines(line.target, lines)]
     if not isinstance(line, Branch):
         return []
-    else_line, condition = first_line + text.index("    else"), line.branch.name if line.branch.is_Symbol else ""
+    else_line, condition = (
+        first_line + text.index("    else"),
+        line.active_branch.name if line.active_branch.is_Symbol else "",
+    )
     below, above = range(first_line, else_line), range(else_line, lines.stop)
     return [StoredLines(line.target, below, f"<{condition}"), StoredLines(line.target, above, f">{condition}")]
 

@@ -344,7 +344,7 @@ class ValuePrinter:
         printed as literals.
         """
         if isinstance(value, Threshold):
-            return self.printer.get_name(value.place) if value.place else value.name
+            return self.printer.get_name(value.storage_location) if value.storage_location else value.name
         return repr(value) if isinstance(value, float) else self.print_expression(value)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.series_rules import ROW_LENGTH
-from gudgeon.generator.ir.sine_pairs import vectorize_sines
+from gudgeon.generator.ir.sine_groups import vectorize_sines
 from gudgeon.generator.targets.c import functions, lanes_printer
 
 FILE = "taylor.c"

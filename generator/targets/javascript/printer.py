@@ -213,13 +213,11 @@ class LinePrinter:
             self.locals.append(target)
         if isinstance(line, Statement):
             return [f"{declaration}{target} = {self.value_printer.print_expression(line.value)};"]
-        below, otherwise = (
-            self.value_printer.print_expression(line.value_below),
-            self.value_printer.print_expression(line.value_above),
+        branch, below, above = (
+            self.value_printer.print_expression(value)
+            for value in (line.active_branch, line.value_below, line.value_above)
         )
-        return [
-            f"{declaration}{target} = {self.value_printer.print_expression(line.branch)} < 0 ? {below} : {otherwise};"
-        ]
+        return [f"{declaration}{target} = {branch} < 0 ? {below} : {above};"]
 
     def _print_argument(self, value: sp.Basic | StorageLocation) -> str:
         """Return an argument of a call in JavaScript."""

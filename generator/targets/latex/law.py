@@ -77,7 +77,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
 
 
 @dataclass(frozen=True)
-class Form:
+class EquationVariant:
     """Represent the equations of a law for one choice of its options.
 
     `selected`: the choice, {} for the defaults. `constants`: equations that are evaluated once per run. `evaluated`:
@@ -91,12 +91,12 @@ class Form:
 
     @property
     def equations(self) -> tuple[Equation, ...]:
-        """Return all equations of the form: constants of a run, then those of each evaluation."""
+        """Return all equations of the variant: constants of a run, then those of each evaluation."""
         return self.constants + self.evaluated
 
 
-def derive_forms(law: Law, name: str) -> list[Form]:
-    """Return a law's form with default options, then for each other choice a form with the equations that it changes.
+def derive_equation_variants(law: Law, name: str) -> list[EquationVariant]:
+    """Return the equations of a law with default options, then for each other choice those that it changes.
 
     A choice is another value of one option, or an optional number that is specified (GIVEN). name: the law's name or
     one of its aliases, which fix options. Raises LawError for a user-defined law.
@@ -107,9 +107,9 @@ def derive_forms(law: Law, name: str) -> list[Form]:
     zero_names = {
         name for name, value in probe_law(law, defaults, required_names).equations_by_name.items() if value == 0
     }
-    default_form = _derive_form(law, {}, defaults, (), zero_names)
-    known_equations = {print_equation(equation) for equation in default_form.equations}
-    all_forms = [default_form]
+    default_variant = _derive_equation_variant(law, {}, defaults, (), zero_names)
+    known_equations = {print_equation(equation) for equation in default_variant.equations}
+    all_variants = [default_variant]
     selected: list[tuple[str, str | bool]] = [
         (law_field.name, value)
         for law_field in law.options
@@ -123,15 +123,15 @@ def derive_forms(law: Law, name: str) -> list[Form]:
     ):
         is_number = key not in defaults
         options, chosen_names = defaults if is_number else {**defaults, key: value}, (key,) if is_number else ()
-        form = _derive_form(law, {key: value}, options, chosen_names, zero_names)
-        all_forms.append(
+        variant = _derive_equation_variant(law, {key: value}, options, chosen_names, zero_names)
+        all_variants.append(
             replace(
-                form,
-                constants=_select_new_equations(form.constants, known_equations),
-                evaluated=_select_new_equations(form.evaluated, known_equations),
+                variant,
+                constants=_select_new_equations(variant.constants, known_equations),
+                evaluated=_select_new_equations(variant.evaluated, known_equations),
             )
         )
-    return all_forms
+    return all_variants
 
 
 def _select_new_equations(equations: Sequence[Equation], known_equations: Set[str]) -> tuple[Equation, ...]:
@@ -149,7 +149,7 @@ def print_law(law: Law, name: str) -> str:
 
 def _make_document(law: Law, name: str) -> Document:
     """Return the document about a law under one of its names; sections without content are left out."""
-    first, *others = derive_forms(law, name)
+    first, *others = derive_equation_variants(law, name)
     alias_options = ", ".join(f"{key}: {value}" for key, value in law.also.get(name, {}).items())
     facts = [
         (f"A law of {_ROLES[law.role]}, {name}" + (f": {law.name} with {alias_options}" if alias_options else ""),)
@@ -178,29 +178,33 @@ def _make_document(law: Law, name: str) -> Document:
     )
 
 
-def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks on a law's default form: table of symbols, internal states, constants and equations.
+def _describe_equations(
+    law: Law, default_variant: EquationVariant, other_variants: Sequence[EquationVariant]
+) -> Iterator[Block]:
+    """Yield the blocks on a law's default variant: table of symbols, internal states, constants and equations.
 
-    other_forms: forms of other choices, whose inputs and results are listed in the table, too.
+    other_variants: variants of other choices, whose inputs and results are listed in the table, too.
     """
-    symbol_by_name = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
+    symbol_by_name = {
+        name: symbol for variant in (*reversed(other_variants), default_variant) for name, symbol in variant.used
+    }
     rows = [make_row(symbol_by_name[name], *_MEANINGS[name]) for name in _MEANINGS if name in symbol_by_name]
     yield from make_tables(make_row("symbol", "meaning", "unit"), rows)
     yield from describe_internal_states(law)
-    if default_form.constants:
+    if default_variant.constants:
         yield make_paragraph("Once per run:")
-        yield from default_form.constants
+        yield from default_variant.constants
     yield make_paragraph("At each evaluation:")
-    yield from default_form.evaluated
+    yield from default_variant.evaluated
 
 
-def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
+def _describe_choices(other_variants: Sequence[EquationVariant]) -> Iterator[Block]:
     """Yield a paragraph and the changed equations for each other choice; a choice that changes none is left out."""
-    for form in other_forms:
-        if form.equations:
-            choice = ", ".join(f"{key}: {format_option(value)}" for key, value in form.selected.items())
+    for variant in other_variants:
+        if variant.equations:
+            choice = ", ".join(f"{key}: {format_option(value)}" for key, value in variant.selected.items())
             yield make_paragraph(f"With {choice}:")
-            yield from form.equations
+            yield from variant.equations
 
 
 def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Formula, ...], ...]:
@@ -244,16 +248,16 @@ def _is_optional(parameter: Field) -> bool:
     return parameter.default is None and not parameter.required
 
 
-def _derive_form(
+def _derive_equation_variant(
     law: Law,
     selected: Mapping[str, str | bool],
     options: Mapping[str, str | bool],
     chosen_names: Sequence[str],
     zero_names: Set[str],
-) -> Form:
+) -> EquationVariant:
     """Return a law's equations for one choice, evaluated with symbols for its parameters (`probe_law`).
 
-    Constants that are equal to a parameter are replaced by it.
+    Constants and intermediate quantities that are equal to a parameter are replaced by it.
 
     selected: the choice. options: the values of all options. chosen_names: optional numbers that are specified.
     zero_names: names of equations whose value is zero by default; they are left out while they are zero.
@@ -262,14 +266,18 @@ def _derive_form(
         law_field.name for law_field in law.parameters if not _is_optional(law_field) or law_field.name in chosen_names
     ]
     probed_law = probe_law(law, options, parameter_names)
-    repeated_constants = {
+    repeated_values = {
         _make_probe_symbol(name): value for name, value in probed_law.derived.items() if value.is_Symbol
+    } | {
+        sp.Symbol(name, real=True): value
+        for name, value in probed_law.equations_by_name.items()
+        if value in map(_make_probe_symbol, parameter_names) and name not in law.results
     }
 
-    def replace_repeated_constants(value: sp.Expr) -> sp.Expr:
+    def replace_repeated_values(value: sp.Expr) -> sp.Expr:
         """Return a value with constants that are equal to a parameter replaced by the parameter, also transitively."""
-        while value.free_symbols & {*repeated_constants}:
-            value = value.xreplace(repeated_constants)
+        while value.free_symbols & {*repeated_values}:
+            value = value.xreplace(repeated_values)
         return value
 
     names = _restore_law_names(
@@ -279,14 +287,14 @@ def _derive_form(
     )
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {
-        _make_probe_symbol(name): replace_repeated_constants(value)
+        _make_probe_symbol(name): replace_repeated_values(value)
         for name, value in probed_law.derived.items()
-        if _make_probe_symbol(name) not in repeated_constants
+        if _make_probe_symbol(name) not in repeated_values
     }
     equations_by_name = {
-        sp.Symbol(name, real=True): replace_repeated_constants(value)
+        sp.Symbol(name, real=True): replace_repeated_values(value)
         for name, value in probed_law.equations_by_name.items()
-        if value != 0 or name not in zero_names
+        if (value != 0 or name not in zero_names) and sp.Symbol(name, real=True) not in repeated_values
     }
     free_symbols = [value.free_symbols for value in (*constants.values(), *equations_by_name.values())]
     symbols_read = {name for name, value in equations_by_name.items() if value != 0}.union(*free_symbols)
@@ -302,7 +310,7 @@ def _derive_form(
         """Return {symbol: value} as equations in the notation of the law, in the same order."""
         return tuple(make_equation(left, right, notation) for left, right in definitions.items())
 
-    return Form(selected, make_equations(constants), make_equations(equations_by_name), used_symbols)
+    return EquationVariant(selected, make_equations(constants), make_equations(equations_by_name), used_symbols)
 
 
 def _propose_symbol_names(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.kinds.laws.dissipation import (
@@ -17,7 +17,7 @@ from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws
 from gudgeon.generator.marked_text import get_markdown
 from gudgeon.generator.targets.format_tables import describe_condition
 from gudgeon.generator.targets.latex.document import Equation, make_sentence
-from gudgeon.generator.targets.latex.law import Form, derive_forms
+from gudgeon.generator.targets.latex.law import EquationVariant, derive_equation_variants
 from gudgeon.generator.targets.latex.law_choice import describe_choice_of_laws
 from gudgeon.generator.targets.latex.law_symbols import find_symbols_of_law, list_symbol_rows
 from gudgeon.generator.targets.latex.play import format_option
@@ -29,7 +29,7 @@ _SOURCE_OF_EXACT = r"the equation of the delivered restitution with $e_r = c_e$,
 SPECIFIED_RESTITUTIONS = (0.9, 0.7, 0.5)  # coefficients of restitution
 _SHEAR_SYMBOLS = r"D_0, L, R_j, \mu, c_{\text{film}}, c_a, s_\varepsilon, \varepsilon"  # of the equations of D_s
 _CAVITATION_SYMBOLS = r"w_n, w_t, s_\varepsilon"  # of the equations of a full film
-# What a choice of an option changes: text before the equations of the form, and text in place of the equations.
+# What a choice of an option changes: text before the equations of the variant, and text in place of the equations.
 _CHOICES = {"cavitation": "the whole film contributes, with the same film factor $S$:"}
 _CHOICES_IN_WORDS = {
     "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print: $F_r$ of the first equation for"
@@ -55,8 +55,6 @@ _EXAMPLES = {
 }
 # Keys of the example of a law with the option `dissipation`: without them, its restitution of 1 has no damping.
 _DISSIPATIVE_EXAMPLE = {"restitution": "0.8", "dissipation": EXACT}
-# Symbol of a key on this page, by law and key: the quantity that the equations have.
-SYMBOLS_OF_KEYS = {"expression.force": r"F_{\text{el}}"}
 # Value of `dissipation`: author and year in its table; the references at the end of the page have the rest.
 _AUTHORS = {
     "hunt_crossley": "Hunt and Crossley (1975)",
@@ -129,7 +127,7 @@ def print_laws_page() -> str:
 def _list_equations(law: Law) -> list[str]:
     """Return the equations that a law declares, as the page prints them, and after them further symbols of its page.
 
-    The equation of the contact modulus is left out. Further symbols are those of other forms and of `validity`.
+    The equation of the contact modulus is left out. Further symbols are those of other variants and of `validity`.
     """
     equations = [_name_film_clearance(law, latex) for latex in law.equation if latex != _CONTACT_MODULUS]
     added = [_CAVITATION_SYMBOLS] if any(option.name == "cavitation" for option in law.options) else []
@@ -190,8 +188,8 @@ def _describe_common_keys() -> Iterator[str]:
         f" ${torque}$:"
     )
     film = find_bundled_laws()["pinkus_sternlicht"]
-    form = next(form for form in derive_forms(film, film.name) if "shear" in form.selected)
-    equations = [_print_latex(equation) for equation in form.equations]
+    variant = next(variant for variant in derive_equation_variants(film, film.name) if "shear" in variant.selected)
+    equations = [_print_latex(equation) for equation in variant.equations]
     yield from ("", *_print_display(equations), *list_symbol_rows([torque, _SHEAR_SYMBOLS], ""))
 
 
@@ -209,15 +207,15 @@ def _describe_dissipation() -> Iterator[str]:
     )
     restitutions = " | ".join(f"$c_e$ = {c_e:g}" for c_e in SPECIFIED_RESTITUTIONS)
     yield from ("", f"| `dissipation` | $a$ | {restitutions} | source |", "|" + "---|" * 6)
-    default_form, *other_forms = derive_forms(find_bundled_laws()["hertz"], "hertz")
-    form_by_value = {DISSIPATION.default: default_form} | {
-        form.selected.get(DISSIPATION.name): form for form in other_forms
+    default_variant, *other_variants = derive_equation_variants(find_bundled_laws()["hertz"], "hertz")
+    variant_by_value = {DISSIPATION.default: default_variant} | {
+        variant.selected.get(DISSIPATION.name): variant for variant in other_variants
     }
     for name in DISSIPATION.values:
         a = next(
-            _print_latex(form).partition(" = ")[2]
-            for form in form_by_value[name].equations
-            if form.left.text in ("a", "a_0")
+            _print_latex(variant).partition(" = ")[2]
+            for variant in variant_by_value[name].equations
+            if variant.left.text in ("a", "a_0")
         )
         formula = (
             "the $a$ that delivers $c_e$, by Newton's method from Hu and Guo's factor" if name == EXACT else f"${a}$"
@@ -255,21 +253,20 @@ def _describe_law_in_markdown(law: Law, common_symbols: Iterable[str]) -> Iterat
         yield from (f"Other names, each for `{law.name}` with the `dissipation` of that name: {names_text}.", "")
     if law.rigid:
         yield from (_RIGID, "")
-    default_form, *other_forms = derive_forms(law, law.name)
+    default_variant, *other_variants = derive_equation_variants(law, law.name)
     common_options = _find_common_options()
-    forms = [form for form in other_forms if not common_options.keys() & form.selected.keys()]
+    variants = [variant for variant in other_variants if not common_options.keys() & variant.selected.keys()]
     if law.equation:
         equations = [latex for latex in _list_equations(law) if " = " in latex or r"\perp" in latex]
         keys = [get_latex_symbol(parameter) for parameter in law.parameters]
         yield from _print_display(equations)
         yield from list_symbol_rows(_list_equations(law), law.name, keys, common_symbols)
     else:
-        yield from _print_display(map(_print_latex, default_form.equations))
+        yield from _print_display(map(_print_latex, default_variant.equations))
         yield from (f"`gudgeon laws {law.name}` defines the symbols of these equations.", "")
-    for form in forms:
-        yield from _describe_choice(form)
-    symbols = {key.split(".")[1]: sign for key, sign in SYMBOLS_OF_KEYS.items() if key.split(".")[0] == law.name}
-    yield from _print_keys_table([field for field in law.fields if field.name not in common_options], symbols)
+    for variant in variants:
+        yield from _describe_choice(variant)
+    yield from _print_keys_table([field for field in law.fields if field.name not in common_options])
     if shared := [f"`{option.name}`" for option in law.options if option.name in common_options]:
         *first, last = shared
         names = f"{', '.join(first)} and {last}" if first else last
@@ -310,20 +307,20 @@ def _format_source(text: str) -> str:
     return re.sub(r"(?<= )(\d+)--?(\d+)(?=[,;. ]|$)", r"\1–\2", get_markdown(text))
 
 
-def _describe_choice(form: Form) -> Iterator[str]:
+def _describe_choice(variant: EquationVariant) -> Iterator[str]:
     """Yield the Markdown lines on the changes by another choice of an option: a sentence and its equations.
 
     Nothing is yielded for a choice that changes no equation. _CHOICES has the sentences.
     """
-    if not form.equations:
+    if not variant.equations:
         return
-    choice = ", ".join(f"{key}: {format_option(value)}" for key, value in form.selected.items())
-    if words := " ".join(_CHOICES_IN_WORDS[key] for key in form.selected if key in _CHOICES_IN_WORDS):
+    choice = ", ".join(f"{key}: {format_option(value)}" for key, value in variant.selected.items())
+    if words := " ".join(_CHOICES_IN_WORDS[key] for key in variant.selected if key in _CHOICES_IN_WORDS):
         yield from (f"With `{choice}`, {words}", "")
         return
-    explanation = " ".join(_CHOICES[key] for key in form.selected if key in _CHOICES)
+    explanation = " ".join(_CHOICES[key] for key in variant.selected if key in _CHOICES)
     yield from (f"With `{choice}`, {explanation or 'these equations apply:'}", "")
-    yield from _print_display(map(_print_latex, form.equations))
+    yield from _print_display(map(_print_latex, variant.equations))
 
 
 def _print_display(equations: Iterable[str]) -> Iterator[str]:
@@ -353,16 +350,14 @@ def _print_latex(equation: Equation) -> str:
     return latex.replace(r"\allowbreak ", "").replace(r"\operatorname{max}", r"\max").replace("{} ", " ")
 
 
-def _print_keys_table(fields: Sequence[Field], symbols: Mapping[str, str]) -> Iterator[str]:
+def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     """Yield the lines of the Markdown table of a law's keys, then an empty line.
 
-    Columns: key, symbol, unit, condition, default, meaning. `symbols`: symbols that replace those of some keys.
+    Columns: key, symbol, unit, condition, default, meaning.
     """
     yield from ("| key | symbol | unit | condition | default | meaning |", "|" + "---|" * 6)
     for parameter in fields:
         cells = _list_number_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
-        if symbol := symbols.get(parameter.name):
-            cells = (f"${symbol}$", *cells[1:])
         yield (
             "| "
             + " | ".join(

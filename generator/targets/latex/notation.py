@@ -293,11 +293,12 @@ def list_drive_distances(model: Model) -> list[sp.Symbol]:
 def list_intermediate_symbols(model: Model) -> list[sp.Symbol]:
     """Return the symbols of intermediate quantities of force elements, such as a spring's length and force.
 
-    They are all definitions except parameters, angles and distances of drives, and rotated components.
+    They are the symbols with a definition, without those that are read from a storage location (parameters), angles
+    and distances of drives, and symbols with derivative rules: sines, cosines and components of rotated vectors.
     """
     excluded = {symbol for symbols in model.constraints.drive_functions.values() for symbol in symbols}
     excluded.update(list_drive_distances(model), model.symbols.derivative_rules)
-    return [s for s in model.symbols.definitions if not model.symbols.info[s].place and s not in excluded]
+    return [s for s in model.symbols.definitions if not model.symbols.info[s].storage_location and s not in excluded]
 
 
 def list_rotated_components(model: Model) -> list[sp.Symbol]:

@@ -258,10 +258,12 @@ def has_equal_play(first: Play, second: Play) -> bool:
 
 
 def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
-    """Return an introduction, and the equations of eccentricity, its rate and both angular velocities in coordinates.
+    """Return the geometry of a joint with play: a paragraph, and its equations in coordinates of the mechanism.
 
-    A corner at a wall also has the normal, a bearing with a contour its angle. `is_first` tells whether the joint is
-    the first one with this play. The equations of gap, penetration and their rates are then added.
+    They define eccentricity, its rate and both angular velocities. A corner at a wall also has the normal, a bearing
+    with a contour its angle. All this is returned for each joint. Only with `is_first` the equations of gap,
+    penetration and their rates follow, which joints with an equal play (`has_equal_play`) have in common: the joint is
+    the first one of them.
     """
     clearance, expand, notation = joint.clearance, joint.notation.expand_symbols, joint.notation
     joint_ref = clearance.joint

@@ -1,4 +1,8 @@
-"""Writes the sections on the reduction to tree coordinates for a document: log, spanning tree, sizes, C files."""
+"""Writes the sections on the reduction to tree coordinates for a document.
+
+They contain the reduction steps, the spanning tree, the numbers of coordinates, equations and operations of both
+formulations, and the C files.
+"""
 
 from __future__ import annotations
 

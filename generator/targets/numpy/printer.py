@@ -265,7 +265,9 @@ class LinePrinter:
                 target, value = self.printer.get_name(line.target), self.print_expression(line.value)
                 return print_assignment(target, value, line.comment, isinstance(line.value, Conditional))
             case Branch():
-                branch, then, otherwise = map(self.print_expression, (line.branch, line.value_above, line.value_below))
+                branch, then, otherwise = map(
+                    self.print_expression, (line.active_branch, line.value_above, line.value_below)
+                )
                 value = f"np.where({branch} < 0, {otherwise}, {then})"
                 return print_assignment(self.printer.get_name(line.target), value, line.comment, is_call=True)
             case When():

@@ -35,9 +35,12 @@ N_GAUSS_NEWTON_STEPS = 6  # to close the linkage
 def compute_reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
     """Return {"p": parameters, "given": …, "states": [{t, q, v, memory, values}]} for the emitted `source`.
 
-    Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass. "given" has all
-    parameters of two runs, in which the user specifies every second parameter (`_compute_given_parameters`). {} is
-    returned above MAX_COORDINATES coordinates, and if an arithmetic error occurs where C has an infinity.
+    Numbers are SI. "memory" has the discrete and internal states: the approach speed of each contact (None: open), the
+    mode of each friction element, the internal states of laws. "values" has the arrays of an Evaluation by name, flat,
+    and phi, nu, gamma and mass. "given" has all parameters of two runs. In one the parameters with even indices are
+    specified, in the other those with odd indices; the others have default or derived values
+    (`_compute_given_parameters`). They verify how the library derives parameters. {} is returned above MAX_COORDINATES
+    coordinates, and if an arithmetic error occurs where C has an infinity.
     """
     if len(program.model.q) > MAX_COORDINATES:
         return {}

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # the written format; the former one, with common times of all runs
 RUNS, GIVEN, EXTREMES, NUMBER = "runs", "given", "extremes", "number"
-TIMES, KEPT, RUN_COLUMN = "times", "kept", "run"
+TIMES, STORED, RUN_COLUMN = "times", "kept", "run"
 COUNTS = (*STORED_COUNTS, "seconds")
 
 
@@ -70,7 +70,7 @@ def build_batch_tables(batch: Batch) -> Iterator[Table]:
     yield build_times_table(batch)
     if not batch.states:
         tables_by_run += build_stored_series_tables(batch)
-        yield build_long_table(KEPT, [(i, table) for i, table in tables_by_run if table.group == KEPT], {})
+        yield build_long_table(STORED, [(i, table) for i, table in tables_by_run if table.group == STORED], {})
     yield Table(RUNS, NUMBER, tuple(_iterate_run_variables(batch, runs)), {})
     units = {parameter.address: parameter.unit for parameter in batch.source.parameters}
     given_variables = (
@@ -129,7 +129,7 @@ def build_stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
             for column, x in stored_columns
         )
         run_tables = (
-            Table(KEPT, "row", tuple(variables), {}),
+            Table(STORED, "row", tuple(variables), {}),
             Table(
                 "impacts", "impact", tuple(netcdf.build_record_variables(batch.impacts[i], netcdf.IMPACTS, joints)), {}
             ),
@@ -295,7 +295,7 @@ class LongTables:
         self.diagnostics = file.read_texts(f"{RUNS}/diagnostics", n_runs) if has_diagnostics else [""] * n_runs
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
-        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
+        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, STORED, TIMES):
             run_numbers, needs_run_numbers = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
             if file.has_entry(group) and (needs_run_numbers or file.has_entry(f"{group}/{RUN_COLUMN}")):
                 run_numbers = file.read_array(f"{group}/{RUN_COLUMN}", None, "i4")
@@ -400,10 +400,10 @@ def read_times(long_tables: LongTables, n_runs: int, has_times_by_run: bool) -> 
     for i in range(n_runs):
         netcdf.check_times(t[long_tables.begins[TIMES][i] : long_tables.begins[TIMES][i + 1]])
     n_columns = max((long_tables.count_rows(TIMES, i) for i in range(n_runs)), default=0)
-    return _unroll_column(long_tables, TIMES, t, n_runs, n_columns)
+    return _arrange_column(long_tables, TIMES, t, n_runs, n_columns)
 
 
-def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_columns: int) -> Array:
+def _arrange_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_columns: int) -> Array:
     """Return a column of a long table as (n, N), a row for each run padded with NaN. Raises ValueError."""
     values = np.full((n_runs, n_columns), np.nan)
     if len(column) != long_tables.begins[group][-1]:
@@ -425,13 +425,13 @@ def read_stored_series(
     is_valid = (
         isinstance(stored_names, list) and "t" in stored_names and all(name in ("t", *names) for name in stored_names)
     )
-    if not is_valid or [long_tables.count_rows(KEPT, i) for i in range(len(samples))] != samples.tolist():
+    if not is_valid or [long_tables.count_rows(STORED, i) for i in range(len(samples))] != samples.tolist():
         raise ValueError("the stored series do not match its runs")
     series_by_name = {}
     for name in stored_names:
-        dataset_name = f"{KEPT}/{name_column(_format_stored_name(name))}"
-        column = long_tables.file.read_array(dataset_name) if long_tables.file.has_entry(KEPT) else np.zeros(0)
-        series_by_name[name] = _unroll_column(long_tables, KEPT, column, len(samples), n_columns)
+        dataset_name = f"{STORED}/{name_column(_format_stored_name(name))}"
+        column = long_tables.file.read_array(dataset_name) if long_tables.file.has_entry(STORED) else np.zeros(0)
+        series_by_name[name] = _arrange_column(long_tables, STORED, column, len(samples), n_columns)
     return series_by_name
 
 

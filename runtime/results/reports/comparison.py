@@ -141,7 +141,9 @@ def convert_to_json_values(reports: Sequence[SceneReport]) -> dict[str, Any]:
             },
             "constants": dict(report.constants),
             "events": {name: list(times) for name, times in report.events.items()},
-            "diagnostics": asdict(report.diagnostics),
+            "diagnostics": {
+                name: value for name, value in asdict(report.diagnostics).items() if name != "sliding_loads"
+            },
         }
     json_values: dict[str, Any] = replace_non_finite_numbers(scenes)
     return json_values

@@ -110,8 +110,9 @@ def _describe_run(report: Mapping[str, Any]) -> str:
 def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     """Return the rows (name, cell) of a joint with play, or of a slider's corner.
 
-    `joint` has the values of `run_report._compute_joint_values`. `has_examination`: additional runs were requested;
-    without them, the rows that need them contain NOT_REQUESTED. Quantities without a value have no row.
+    `joint` has the values of `run_report._compute_joint_values`. `has_examination`: whether the run was examined
+    (`examine`), which makes additional runs; without them, the rows that need them contain NOT_REQUESTED. Quantities
+    without a value have no row.
     """
     time_fractions = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
     time_text = ", ".join(
@@ -150,9 +151,10 @@ def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
 
 
 def build_guide_rows(guide: Mapping[str, Any], has_examination: bool) -> Rows:
-    """Return the rows (name, cell) of a guide with play: force and moment on the slider, and the ideal force.
+    """Return the rows (name, cell) of a guide with play: peak and RMS force, peak moment, and the ideal force.
 
-    `has_examination` as in `build_joint_rows`.
+    The force and the moment are those on the slider. `has_examination`: whether the run was examined (`examine`);
+    without it, the row of the ideal force contains NOT_REQUESTED.
     """
     peak, moment = guide["peak"], guide["M"]
     return [

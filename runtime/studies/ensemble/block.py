@@ -41,10 +41,10 @@ from gudgeon.studies.ensemble.parameter_values import (
     parse_real_value,
     to_python_value,
 )
-from gudgeon.studies.ensemble.subtracted_series import (
-    compute_subtracted_series,
-    find_scene_subtracted_over_steps,
-    load_subtracted_scene,
+from gudgeon.studies.ensemble.reference_series import (
+    compute_reference_series,
+    find_reference_scene_of_steps,
+    load_reference_scene,
 )
 
 if TYPE_CHECKING:
@@ -310,8 +310,8 @@ def _simulate_block_runs(
     t_end: Any = None if not same_times else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(to_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
-    origin, sliding = (
-        find_scene_subtracted_over_steps(settings.measures, source),
+    reference_scene, sliding = (
+        find_reference_scene_of_steps(settings.measures, source),
         list_sliding_requests(settings.measures, source),
     )
     options: dict[str, Any] = {
@@ -334,7 +334,7 @@ def _simulate_block_runs(
         contour=contour,
         keep=list_sampled_series(settings.measures, settings.keep, source),
         peaks=(*list_peak_series(settings.measures, source), *sliding),
-        against=load_subtracted_scene(job, origin) if origin else None,
+        against=load_reference_scene(job, reference_scene) if reference_scene else None,
     )
     if batch.interrupted:
         raise KeyboardInterrupt
@@ -369,11 +369,11 @@ class _Collector:
         failed = {failure.run: str(failure.error) for failure in batch.failures}
         for i, message in failed.items():
             failures[runs[i]] = message
-        subtracted_series = compute_subtracted_series(self.job, self.table, runs, batch, failures)
+        reference_series = compute_reference_series(self.job, self.table, runs, batch, failures)
         is_valid = np.array([not failures[i] for i in runs])
         for measure in self.job.run_settings.measures:
             self.measures[measure.name][runs] = np.where(
-                is_valid, evaluate_measure(batch, measure, spans, subtracted_series), np.nan
+                is_valid, evaluate_measure(batch, measure, spans, reference_series), np.nan
             )
         has_begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)

@@ -53,7 +53,7 @@ def check_lyapunov_measures(study: StudyFile, source: KernelSource) -> None:
     that is neither an event nor a period.
     """
     for measure in (measure for measure in study.measures if measure.statistic in NEIGHBOUR_STATISTICS):
-        where, owner = measure.of.where, f"measures.{measure.name}"
+        where, owner = measure.measured_name.where, f"measures.{measure.name}"
         if study.wear is not None:
             message = f"{owner}: neighbouring trajectories are not computed for contours with wear"
             raise BadValueError(message, where, "remove wear:, or this measure")
@@ -62,23 +62,23 @@ def check_lyapunov_measures(study: StudyFile, source: KernelSource) -> None:
                 f"{owner}: the predictability horizon needs the relative error of a step, unknown for a fixed step"
             )
             raise BadValueError(message, where, "expected a method with step-size control, and rtol")
-        if measure.of == WHOLE_RUN and measure.statistic in SECTION_STATISTICS:
+        if measure.measured_name == WHOLE_RUN and measure.statistic in SECTION_STATISTICS:
             message = f"{owner}: {measure.statistic.replace('_', ' ')} needs a section"
             raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
-        if measure.of != WHOLE_RUN and not _is_event_section(measure, source):
+        if measure.measured_name != WHOLE_RUN and not _is_event_section(measure, source):
             _check_period_expression(measure, source)
 
 
 def _is_event_section(measure: Measure, source: KernelSource) -> bool:
     """Return whether the section of a measure is the name of a user-defined event of the scene."""
-    return measure.of in [event.name for event in source.events]
+    return measure.measured_name in [event.name for event in source.events]
 
 
 def _check_period_expression(measure: Measure, source: KernelSource) -> None:
     """Raise an InputError unless the section of a measure is an expression of parameters with the dimension of time."""
     from gudgeon.generator.study.spec import ParsedExpression
 
-    expression = ParsedExpression(parse(measure.of, measure.of.where), measure.of)
+    expression = ParsedExpression(parse(measure.measured_name, measure.measured_name.where), measure.measured_name)
     try:
         check_expression(source, expression, TIME, {"t_end": TIME})
     except InputError as error:
@@ -139,7 +139,7 @@ class _NeighbourComputation:
         with collect_start_deviation_warnings(self.simulation.source, self.job.first_run):
             try:
                 for measure in measures:
-                    key = (str(measure.of), measure.window)
+                    key = (str(measure.measured_name), measure.window)
                     if key not in computed:
                         computed[key] = self._compute_lyapunov(i, measure)
                     values[measure.name] = _read_statistic(measure.statistic, computed[key], self.error)
@@ -179,11 +179,11 @@ class _NeighbourComputation:
 
     def _resolve_section(self, i: int, measure: Measure) -> str | float | None:
         """Return the section of a measure for run i: None for the whole motion, an event's name, or a period (s)."""
-        if measure.of == WHOLE_RUN:
+        if measure.measured_name == WHOLE_RUN:
             return None
         if _is_event_section(measure, self.simulation.source):
-            return str(measure.of)
-        expr, values_by_name = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
+            return str(measure.measured_name)
+        expr, values_by_name = parse(measure.measured_name, measure.measured_name.where), {"t_end": self.table.t_end}
         return float(evaluate_expression_for_runs(self.simulation.source, expr, self.table.p, values_by_name)[i])
 
     def _report_progress(self, fraction: float, text: str) -> None:

@@ -49,8 +49,8 @@ class Check:
 class ClaimVerdict:
     """Verdict on a claim of several checks, with the probability and the interval low … high of its least likely check.
 
-    `chance`: probability that one run of each cell satisfies all checks. `denied`: verdicts that the intervals rule
-    out.
+    `chance`: probability that one run of each cell satisfies all checks. `excluded_verdicts`: verdicts that the
+    intervals rule out.
     """
 
     verdict: str
@@ -58,7 +58,7 @@ class ClaimVerdict:
     low: float
     high: float
     chance: float
-    denied: frozenset[str]
+    excluded_verdicts: frozenset[str]
     estimates: tuple[ProbabilityEstimate, ...]  # one for each check
 
 
@@ -136,7 +136,7 @@ def merge_verdicts(verdicts: Sequence[ClaimVerdict]) -> tuple[ClaimVerdict, bool
         [_average_estimates(estimates) for estimates in zip(*(verdict.estimates for verdict in verdicts), strict=True)],
         mean_chance,
     )
-    agreed = not any(verdict.verdict in other.denied for verdict in verdicts for other in verdicts)
+    agreed = not any(verdict.verdict in other.excluded_verdicts for verdict in verdicts for other in verdicts)
     return (common if agreed else replace(common, verdict="undecided")), agreed
 
 
@@ -169,7 +169,11 @@ def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) 
 
     The claim holds if the lower bounds of all checks are at least MIN_P_HOLDS. It fails if the upper bound of one
     check, with a tail probability that is divided by the number of checks (Bonferroni), is at most MAX_P_FAILS. It is
-    undecided otherwise, without checks, or with a NaN. chance: stored in the verdict.
+    undecided otherwise, without checks, or with a NaN. Failure has precedence.
+
+    In the verdict, the probability and its bounds are those of the check with the lowest p. `excluded_verdicts` are
+    the verdicts, "holds" or "fails", that the bounds rule out. chance: the probability that one run of each cell
+    satisfies all checks, which the verdict stores.
     """
     if not estimates or any(math.isnan(estimate.p) for estimate in estimates):
         return ClaimVerdict("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(estimates))

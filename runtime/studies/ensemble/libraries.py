@@ -62,8 +62,8 @@ def find_study_mechanism(study: StudyFile) -> str:
         raise type(error)(message, study.mechanism.where, error.hint if not is_file else hint) from None
 
 
-def iterate_structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
-    """Yield every structure of a study: each scene with each combination of options of its choices.
+def iterate_variants(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
+    """Yield every variant of a study: each scene with each combination of options of its choices.
 
     The items are the scene, its overrides {address: text with location}, and the overrides as sorted pairs of strings.
     """
@@ -73,9 +73,11 @@ def iterate_structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text]
         yield scene, texts, tuple(sorted((address, str(text)) for address, text in texts.items()))
 
 
-def list_scenes_to_subtract(study: StudyFile) -> list[Text]:
+def list_reference_scene_names(study: StudyFile) -> list[Text]:
     """Return the scenes whose series the measures of a study subtract (key `from`), without repetitions."""
-    return list(dict.fromkeys(measure.origin for measure in study.measures if measure.origin is not None))
+    return list(
+        dict.fromkeys(measure.reference_scene for measure in study.measures if measure.reference_scene is not None)
+    )
 
 
 def list_libraries(studies: Iterable[StudyFile]) -> list[Structure]:
@@ -89,8 +91,8 @@ def list_libraries(studies: Iterable[StudyFile]) -> list[Structure]:
             mechanism = find_study_mechanism(study)
         except InputError:  # reported by resolve_study
             continue
-        for scene, _, overrides in iterate_structures(study):
-            for name in (*list_scenes_to_subtract(study), scene):
+        for scene, _, overrides in iterate_variants(study):
+            for name in (*list_reference_scene_names(study), scene):
                 libraries[Structure(mechanism, str(name), overrides)] = None
     return list(libraries)
 

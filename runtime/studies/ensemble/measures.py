@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
     from gudgeon.results.batch import Batch
 
-SubtractedSeries: TypeAlias = Mapping[
+ReferenceSeries: TypeAlias = Mapping[
     str, Mapping[str, Array]
 ]  # scene -> series of runs, (n, N) each, at their own samples
 Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run; None: of the run
@@ -58,7 +58,7 @@ def list_sampled_series(
     """
     catalogue = get_catalogue(source)
     others = (*JOINT_STATISTICS, *CROSSING_STATISTICS, *STEP_STATISTICS, *NEIGHBOUR_STATISTICS)
-    expected = [*(str(measure.of) for measure in measures if measure.statistic not in others), *stored_names]
+    expected = [*(str(measure.measured_name) for measure in measures if measure.statistic not in others), *stored_names]
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
 
@@ -69,9 +69,9 @@ def list_peak_series(measures: tuple[Measure, ...], source: KernelSource) -> lis
     """
     catalogue = get_catalogue(source)
     expected = (
-        str(measure.of)
+        str(measure.measured_name)
         for measure in measures
-        if measure.statistic in STEP_STATISTICS and measure.origin != source.scene
+        if measure.statistic in STEP_STATISTICS and measure.reference_scene != source.scene
     )
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
@@ -82,7 +82,7 @@ def list_sliding_requests(measures: tuple[Measure, ...], source: KernelSource) -
     Joints that the scene lacks, or whose wear cannot be measured, are left out.
     """
     joints = _list_joints_with_play(source, with_wear=True)
-    expected = (str(measure.of) for measure in measures if measure.statistic in WEAR_STATISTICS)
+    expected = (str(measure.measured_name) for measure in measures if measure.statistic in WEAR_STATISTICS)
     return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in joints)
 
 
@@ -94,14 +94,14 @@ def find_measure_unit(measure: Measure, source: KernelSource) -> str | None:
     if measure.statistic in JOINT_STATISTICS:
         return (
             STATISTIC_UNITS[measure.statistic]
-            if measure.of in _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS)
+            if measure.measured_name in _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS)
             else None
         )
     if measure.statistic in CROSSING_STATISTICS:
-        return STATISTIC_UNITS[measure.statistic] if measure.of in _list_events(source) else None
+        return STATISTIC_UNITS[measure.statistic] if measure.measured_name in _list_events(source) else None
     if measure.statistic in NEIGHBOUR_STATISTICS:
         return NEIGHBOUR_STATISTICS[measure.statistic] if source.degrees_of_freedom > 0 else None
-    return get_catalogue(source)[measure.of].unit if measure.of in get_catalogue(source) else None
+    return get_catalogue(source)[measure.measured_name].unit if measure.measured_name in get_catalogue(source) else None
 
 
 def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputError:
@@ -114,34 +114,39 @@ def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputE
     if measure.statistic in JOINT_STATISTICS:
         return make_unknown_name_error(
             "joint with play",
-            measure.of,
+            measure.measured_name,
             _list_joints_with_play(source, measure.statistic in WEAR_STATISTICS),
-            measure.of.where,
+            measure.measured_name.where,
         )
     if measure.statistic in CROSSING_STATISTICS:
-        return make_unknown_name_error("event", measure.of, _list_events(source), measure.of.where)
+        return make_unknown_name_error(
+            "event", measure.measured_name, _list_events(source), measure.measured_name.where
+        )
     if measure.statistic in NEIGHBOUR_STATISTICS:
         message = f"scene {source.scene} has no degree of freedom: perturbations cannot grow"
-        return BadValueError(message, measure.of.where, "expected a scene with at least one degree of freedom")
+        return BadValueError(
+            message, measure.measured_name.where, "expected a scene with at least one degree of freedom"
+        )
     try:
-        check_series(source, [str(measure.of)])
+        check_series(source, [str(measure.measured_name)])
     except UnknownNameError as error:
-        return UnknownNameError(error.message, measure.of.where, error.hint)
+        return UnknownNameError(error.message, measure.measured_name.where, error.hint)
     raise AssertionError(measure)
 
 
-def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -> None:
-    """Raise UnknownNameError at the first measure that subtracts scene `source` but whose series that scene lacks.
+def check_reference_series(measures: Iterable[Measure], source: KernelSource) -> None:
+    """Raise UnknownNameError at the first measure whose reference scene is `source` but whose series it lacks.
 
-    Measures that subtract another scene, or none, are not checked.
+    The reference scene is the one whose series is subtracted (key `from`). Measures with another one, or none, are not
+    checked.
     """
     for measure in measures:
-        if measure.origin == source.scene and measure.of not in get_catalogue(source):
+        if measure.reference_scene == source.scene and measure.measured_name not in get_catalogue(source):
             try:
-                check_series(source, [str(measure.of)])
+                check_series(source, [str(measure.measured_name)])
             except UnknownNameError as error:
                 message = f"scene {source.scene}: {error.message}"
-                raise UnknownNameError(message, measure.of.where, error.hint) from None
+                raise UnknownNameError(message, measure.measured_name.where, error.hint) from None
 
 
 def _list_joints_with_play(source: KernelSource, with_wear: bool = False) -> list[str]:
@@ -164,16 +169,16 @@ def _list_events(source: KernelSource) -> list[str]:
 
 def describe_measure(measure: Measure) -> str:
     """Return a description of a measure, the long_name of its variable: "peak of slider.ax in window last"."""
-    message = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
+    message = f"{measure.statistic.replace('_', ' ')} of {measure.measured_name}"
     message = f"{message} ({MOTION_CODES_TEXT})" if measure.statistic == "motion" else message
-    message = f"{message} from scene {measure.origin}" if measure.origin is not None else message
+    message = f"{message} from scene {measure.reference_scene}" if measure.reference_scene is not None else message
     return f"{message} in window {measure.window}" if measure.window else message
 
 
-def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_series: SubtractedSeries) -> Array:
+def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, reference_series: ReferenceSeries) -> Array:
     """Return the values of a measure for all runs of a batch, (n,); NaN for a run without a value.
 
-    spans: begin and end of each window. subtracted_series: series of other scenes, at the samples of the batch. All
+    spans: begin and end of each window. reference_series: series of other scenes, at the samples of the batch. All
     values are NaN if the scene lacks the joint, event or series, and for statistics of neighbouring trajectories, which
     `compute_neighbour_measures` computes.
     """
@@ -187,7 +192,7 @@ def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_se
         return _read_step_peaks(batch, measure)
     if measure.statistic in JOINT_PEAKS:
         return np.asarray(
-            batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints_with_play(source).index(measure.of)]
+            batch.peaks[JOINT_PEAKS[measure.statistic]][:, _list_joints_with_play(source).index(measure.measured_name)]
         )
     if measure.statistic in WEAR_STATISTICS:
         return _compute_bearing_wear(batch, measure)
@@ -195,9 +200,13 @@ def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_se
         return _evaluate_contact_measure(batch, measure, begin, end)
     if measure.statistic in CROSSING_STATISTICS:
         return _evaluate_event_measure(batch, measure, begin, end)
-    values = batch.kept[str(measure.of)]
-    if measure.origin is not None:
-        values = values - (values if measure.origin == source.scene else subtracted_series[measure.origin][measure.of])
+    values = batch.kept[str(measure.measured_name)]
+    if measure.reference_scene is not None:
+        values = values - (
+            values
+            if measure.reference_scene == source.scene
+            else reference_series[measure.reference_scene][measure.measured_name]
+        )
     return SAMPLE_STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
 
 
@@ -206,9 +215,13 @@ def _read_step_peaks(batch: Batch, measure: Measure) -> Array:
 
     The deviation of a scene from itself is 0, or NaN for a run without samples.
     """
-    if measure.origin is not None and measure.origin == batch.source.scene:
+    if measure.reference_scene is not None and measure.reference_scene == batch.source.scene:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
-    peaks = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
+    peaks = (
+        batch.peak(str(measure.measured_name))
+        if measure.reference_scene is None
+        else batch.peak_error(str(measure.measured_name))
+    )
     return np.asarray(getattr(peaks, STEP_STATISTICS[measure.statistic]))
 
 
@@ -219,8 +232,8 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
     with 90 % of the wear.
     """
     values = np.full(len(batch), np.nan)
-    for i, loads_of_run in enumerate(batch.rubbed):
-        for sliding_loads in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
+    for i, loads_of_run in enumerate(batch.sliding_loads):
+        for sliding_loads in (loads for loads in loads_of_run if loads.requested.joint == measure.measured_name):
             values[i] = (
                 compute_shortest_arc(sliding_loads.load[0])
                 if measure.statistic == "wear_arc"
@@ -235,7 +248,7 @@ def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end:
     Contacts count if their onset lies in the run's window, begin to end (s), (n,) each. A run without such a contact
     has 0 as number, else NaN.
     """
-    joint, is_count = _list_joints_with_play(batch.source).index(measure.of), measure.statistic == "impacts"
+    joint, is_count = _list_joints_with_play(batch.source).index(measure.measured_name), measure.statistic == "impacts"
     values = _make_default_values(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
@@ -254,7 +267,7 @@ def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: A
 
     begin, end: of the windows, s, (n,) each. A run without an occurrence has 0 as number, NaN as time.
     """
-    event_index, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
+    event_index, is_count = _list_events(batch.source).index(measure.measured_name), measure.statistic == "crossings"
     values = _make_default_values(batch, is_count, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
         t = events["t"][events["event"] == event_index]

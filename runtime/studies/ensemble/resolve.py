@@ -24,11 +24,11 @@ from gudgeon.studies.ensemble.exponents import check_lyapunov_measures
 from gudgeon.studies.ensemble.libraries import (
     find_study_mechanism,
     get_method_for_scene,
-    iterate_structures,
-    list_scenes_to_subtract,
+    iterate_variants,
+    list_reference_scene_names,
 )
 from gudgeon.studies.ensemble.measures import (
-    check_subtracted_series,
+    check_reference_series,
     describe_measure,
     find_measure_unit,
     list_sampled_series,
@@ -65,7 +65,7 @@ def resolve_study(study: StudyFile) -> Plan:
     """
     check_study_size(study)
     structure, coordinates = _resolve_structure(study)
-    parts = tuple(_load_structures(study))
+    parts = tuple(_load_variants(study))
     sources = [part.simulation.source for part in parts]
     parameter_dimensions, parameter_coordinates = _resolve_parameters(study, sources)
     deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
@@ -109,15 +109,15 @@ def _resolve_structure(study: StudyFile) -> tuple[list[StudyDimension], list[Coo
     return [StudyDimension(name, len(words)) for name, words, _ in named], coordinates
 
 
-def _load_structures(study: StudyFile) -> Iterator[Part]:
-    """Load the library of every combination of scene and options, and yield a part for each.
+def _load_variants(study: StudyFile) -> Iterator[Part]:
+    """Load the library of every variant (combination of scene and options) of a study, and yield a part for each.
 
-    Scenes that measures subtract are loaded, too, and checked for the series. Raises an InputError at its location.
+    Reference scenes of measures are loaded, too, and checked for the series. Raises an InputError at its location.
     """
     mechanism = find_study_mechanism(study)
-    for scene, texts, overrides in iterate_structures(study):
-        for origin in list_scenes_to_subtract(study):
-            check_subtracted_series(study.measures, _load_scene(mechanism, origin, texts, overrides).source)
+    for scene, texts, overrides in iterate_variants(study):
+        for reference_scene in list_reference_scene_names(study):
+            check_reference_series(study.measures, _load_scene(mechanism, reference_scene, texts, overrides).source)
         yield Part(_load_scene(mechanism, scene, texts, overrides), mechanism, overrides)
 
 

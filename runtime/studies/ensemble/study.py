@@ -61,12 +61,12 @@ def resolve_plans(
     starts = None if starts is None else check_integer(starts, "starts", 1, MAX_COUNT)
     seed = None if seed is None else check_integer(seed, "seed", 0, MAX_SEED)
     if isinstance(study, Mapping):
-        return _resolve_parts(read_studies(study, "", overrides).replace_starts(starts, seed))
+        return _resolve_parts(read_studies(study, "", overrides).replace_perturbed_starts(starts, seed))
     file = os.fspath(check_path(study, "study"))
     if not (os.path.splitext(file)[1] or os.path.dirname(file) or os.path.lexists(file)):
         file = str(find_shipped_study(file))
     data = read_user_file(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return _resolve_parts(read_studies(data, file, overrides).replace_starts(starts, seed))
+    return _resolve_parts(read_studies(data, file, overrides).replace_perturbed_starts(starts, seed))
 
 
 def _resolve_parts(studies: StudySet) -> Plans:
@@ -171,9 +171,11 @@ def run_plans(
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
-    """Open the finished study in a folder, with or without parts; its data are read on request.
+    """Open the finished study in a folder; its data are read on request.
 
-    Raises InputError for a folder without a study, or if any part is unfinished or damaged.
+    For a file that lists several studies (parts), a StudyOfParts is returned: one study per part, by name. All parts
+    are checked, and not merged. Raises InputError for a folder without a study, or if any part is unfinished or
+    damaged.
     """
     folder_path = Path(check_path(folder, "folder"))
     if (manifest := read_manifest(folder_path)) is None:

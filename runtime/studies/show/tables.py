@@ -1,4 +1,4 @@
-"""Format numbers and tables, and write CSV files and figures, for `gudgeon bench` and `gudgeon map`."""
+"""Format tables, and write CSV files and figures, of `gudgeon bench` (time by error) and `gudgeon map` (sweeps)."""
 
 from __future__ import annotations
 

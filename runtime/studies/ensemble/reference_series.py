@@ -35,32 +35,34 @@ if TYPE_CHECKING:
 MAX_CACHE_BYTES = 1 << 26  # maximum size of the cache of series, which later blocks of a process may need
 
 
-def list_subtracted_scenes(measures: Iterable[Measure], excluded_scene: str = "") -> tuple[str, ...]:
-    """Return the scenes whose series these measures subtract (key `from`), without repetitions.
+def list_reference_scenes(measures: Iterable[Measure], excluded_scene: str = "") -> tuple[str, ...]:
+    """Return the reference scenes of these measures, whose series they subtract (key `from`), without repetitions.
 
     excluded_scene: a scene that is left out, such as the measured scene itself.
     """
     return tuple(
         dict.fromkeys(
-            str(measure.origin)
+            str(measure.reference_scene)
             for measure in measures
-            if measure.origin is not None and measure.origin != excluded_scene
+            if measure.reference_scene is not None and measure.reference_scene != excluded_scene
         )
     )
 
 
-def find_scene_subtracted_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
+def find_reference_scene_of_steps(measures: Sequence[Measure], source: KernelSource) -> str:
     """Return the scene that measures over all steps (`deviation_of_steps`) subtract in scene `source`; "" for none.
 
     A study has at most one such scene.
     """
     step_measures = (
-        measure for measure in measures if measure.statistic in STEP_STATISTICS and measure.of in get_catalogue(source)
+        measure
+        for measure in measures
+        if measure.statistic in STEP_STATISTICS and measure.measured_name in get_catalogue(source)
     )
-    return next(iter(list_subtracted_scenes(step_measures, source.scene)), "")
+    return next(iter(list_reference_scenes(step_measures, source.scene)), "")
 
 
-def load_subtracted_scene(job: Job, scene: str) -> Simulation:
+def load_reference_scene(job: Job, scene: str) -> Simulation:
     """Load the library of another scene with the mechanism and overrides of a job, and return its simulation."""
     return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
@@ -130,7 +132,7 @@ class SeriesCache:
 _recent, _computing = SeriesCache(), Lock()
 
 
-def compute_subtracted_series(
+def compute_reference_series(
     job: Job, table: RunTable, runs: Array, batch: Batch, failures: list[str]
 ) -> dict[str, dict[str, Array]]:
     """Run the scenes that measures subtract, and return their series at the samples of a batch: {scene: {name: (n,
@@ -142,11 +144,13 @@ def compute_subtracted_series(
     """
     series_by_scene: dict[str, dict[str, Array]] = {}
     sample_measures = [measure for measure in job.run_settings.measures if measure.statistic not in STEP_STATISTICS]
-    for scene in list_subtracted_scenes(sample_measures, batch.source.scene):
-        simulation = load_subtracted_scene(job, scene)
+    for scene in list_reference_scenes(sample_measures, batch.source.scene):
+        simulation = load_reference_scene(job, scene)
         common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()
         names = dict.fromkeys(
-            str(measure.of) for measure in sample_measures if measure.origin == scene and measure.of in common_names
+            str(measure.measured_name)
+            for measure in sample_measures
+            if measure.reference_scene == scene and measure.measured_name in common_names
         )
         if names:
             series_by_scene[scene] = _compute_series_at_samples(
@@ -183,7 +187,7 @@ def _compute_series_at_samples(
         missing = [i for i in {keys[i]: i for i in reversed(valid_runs)}.values() if cached[keys[i]] is None]
         computed = _compute_kinematic_series(job, simulation, run_inputs, sorted(missing), names)
         for i, series in (
-            computed | _simulate_subtracted_series(job, simulation, run_inputs, sorted({*missing} - {*computed}), names)
+            computed | _simulate_reference_series(job, simulation, run_inputs, sorted({*missing} - {*computed}), names)
         ).items():
             if isinstance(series, str):
                 for k in (k for k in valid_runs if keys[k] == keys[i]):
@@ -267,7 +271,7 @@ def _compute_kinematic_series(
     return {i: series for i, series in series_by_run.items() if series is not None}
 
 
-def _simulate_subtracted_series(
+def _simulate_reference_series(
     job: Job, simulation: Simulation, run_inputs: RunInputs, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Simulate runs of a subtracted scene as one batch; return by run its series, or the reason (a text) of a failure.
@@ -297,7 +301,7 @@ def _simulate_subtracted_series(
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        series_by_single_run = [_simulate_subtracted_series(job, simulation, run_inputs, [i], names) for i in runs]
+        series_by_single_run = [_simulate_reference_series(job, simulation, run_inputs, [i], names) for i in runs]
         return {i: series for series_by_run in series_by_single_run for i, series in series_by_run.items()}
     if batch.interrupted:
         raise KeyboardInterrupt

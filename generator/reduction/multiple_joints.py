@@ -22,7 +22,7 @@ def find_end_points(joint: Joint) -> tuple[Point, Point]:
 
 
 @dataclass(frozen=True)
-class SharedPoint:
+class MultipleJoint:
     """A multiple joint: points that coincide, the joints of the file that connect them, and all pairs of bodies.
 
     A pair is a joint between two of the points: one of the file, or a new revolute joint.
@@ -85,7 +85,7 @@ class SharedPoint:
         return signs
 
 
-def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
+def find_multiple_joints(joints: Iterable[Joint]) -> list[MultipleJoint]:
     """Return the multiple joints: coincident points of three or more bodies, connected by joints without a loop.
 
     Only joints that make their points coincide count, and at least one must be revolute. Points whose joints form a
@@ -98,13 +98,13 @@ def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
             merged = [*first_group, *(j for j in second_group if j not in first_group), joint]
             for point in {p for j in merged for p in find_end_points(j)}:
                 groups[point] = merged
-    shared_points = []
+    multiple_joints = []
     for group in {tuple(j.name for j in group): group for group in groups.values()}.values():
         points = frozenset(p for joint in group for p in find_end_points(joint))
         pivots = [j for j in group if find_joint_types()[j.kind].is_pivot]
         if pivots and len(points) == len(group) + 1 >= 3:
-            shared_points.append(SharedPoint(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
-    return shared_points
+            multiple_joints.append(MultipleJoint(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
+    return multiple_joints
 
 
 def _make_pairs(group: Sequence[Joint], template: Joint) -> list[Joint]:
