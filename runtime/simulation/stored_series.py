@@ -10,8 +10,8 @@ import numpy as np
 from gudgeon.contract.boundary import MAX_MOTION_SERIES
 from gudgeon.errors import SolverError
 from gudgeon.integrators.times import Times
-from gudgeon.model.evaluation import evaluate_runs
 from gudgeon.model.compiled import Array
+from gudgeon.model.evaluation import evaluate_runs
 from gudgeon.model.file_expressions import may_powers_be_undefined
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.results.batch import STATES, check_series_names, depends_on_works, find_evaluation_fields
