@@ -24,8 +24,7 @@
 #define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
 enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against the stiff method until it is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
-    RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until a refused change is considered again, at least */,
-    MAX_RECONSIDER_STEPS = 256 /* the same for a change from the explicit method, at most */,
+    RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24, MAX_RECONSIDER_STEPS = 256 /* steps until a refused change is tested */,
     MAX_OPPOSING_STEPS = 3 /* successive steps against the explicit method until the first change */,
     MAX_OPPOSING_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
     CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
@@ -98,7 +97,7 @@ static void change_method(Integrator *run)
     if (!stiff)
         run->choice.mean_length[1] = 0.0;
     run->choice.n_opposing_steps = run->choice.n_unstable_steps = 0;
-    run->choice.steps_since_change = run->choice.reconsidered_at = 0;
+    run->choice.steps_since_change = 0;
 }
 
 /*
@@ -148,10 +147,8 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
  * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho (spectral
  * radius of the Jacobian, 1/s), or when its steps do not pay; the next switch to it then needs twice as many steps.
- * With films it is not left while its steps still grow (MAX_OPPOSING_GROWTH). Called after each accepted step.
- *
- * A refused switch waits RECONSIDER_STEPS. From the explicit method, it waits as many steps as passed since the last
- * switch, at most MAX_RECONSIDER_STEPS: the estimate of rho takes RATE_ITERATIONS + 1 right-hand sides.
+ * With films it is not left while its steps still grow (MAX_OPPOSING_GROWTH). A refused switch waits RECONSIDER_STEPS,
+ * from the explicit method as many steps as since the last one, if more. Called after each accepted step.
  */
 static void switch_method_after_step(Integrator *run, const Parameters *p)
 {
@@ -168,14 +165,13 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
         return;
     }
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY
-        : stability > run->choice.method->limiting_h_rho || slower;
+        : stability > run->choice.method->limiting_h_rho || slower || run->choice.n_opposing_steps < 0 /* waits */;
     run->choice.n_opposing_steps = against ? run->choice.n_opposing_steps + 1 : 0;
     run->choice.steps_since_change++;
     if (run->choice.n_opposing_steps == 1)
         run->choice.opposing_length = run->step.h;
     const int n_needed = stiff ? run->choice.return_steps : run->choice.max_opposing_steps;
-    if (!run->choice.automatic || run->choice.n_opposing_steps < n_needed
-        || run->choice.steps_since_change < run->choice.reconsidered_at)
+    if (!run->choice.automatic || run->choice.n_opposing_steps < n_needed)
         return;
     if (stiff && has_films() && run->control.h > MAX_OPPOSING_GROWTH * run->choice.opposing_length) {
         run->choice.n_opposing_steps = 0; /* its steps still grow, as after the start: their stiffness will show */
@@ -183,14 +179,11 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
     }
     const int is_estimated = stiff || run->choice.method->controls_length;
     const double rate = is_estimated ? estimate_largest_rate(run, p) : 0.0;
-    const int steps = run->choice.steps_since_change;
     if (stiff ? rate * run->control.h < MAX_EXPLICIT_STABILITY : is_limited_by_stability(run, rate))
         change_method(run);
-    else if (stiff)
-        run->choice.n_opposing_steps = -RECONSIDER_STEPS;
     else
-        run->choice.reconsidered_at = steps + (steps < RECONSIDER_STEPS ? RECONSIDER_STEPS
-            : steps < MAX_RECONSIDER_STEPS ? steps : MAX_RECONSIDER_STEPS);
+        run->choice.n_opposing_steps = stiff ? -RECONSIDER_STEPS
+            : -(int)min_of(MAX_RECONSIDER_STEPS, max_of(RECONSIDER_STEPS, run->choice.steps_since_change));
     run->choice.rho = rate;
 }
 

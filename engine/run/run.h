@@ -243,7 +243,6 @@ typedef struct {
     double opposing_length; /* s: of the first of the successive steps against the method */
     int automatic; /* whether the run may change between both methods */
     int n_opposing_steps, steps_since_change; /* successive steps against the method; steps since the last change */
-    int reconsidered_at; /* steps since the last change from which a refused change is considered again */
     int n_unstable_steps; /* rejected unstable steps since the last change of a contact or of the method */
     int return_steps, max_opposing_steps; /* steps against the stiff, and the explicit method until the change */
 } MethodChoice;
