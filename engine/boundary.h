@@ -79,7 +79,7 @@ enum AuditCheck {
 /* Slip speed in m/s below which friction may stick. */
 #define MAX_STICK_SPEED 1e-9
 
-/* Orders of the series of Taylor's method per factor e of its tolerance. */
+/* Orders of the series of Taylor's method per factor e of its tolerance, in scenes with more than eight products. */
 #define TAYLOR_ORDERS_PER_E_FOLD 0.7
 
 /* Tolerance of the method `auto` divided by that of its Taylor series, so that errors are at most those of dop853. */

@@ -170,7 +170,8 @@ static void flush_lane_local_steps(
     for (int j = 0; j < N_WORK; j++)
         run->rhs.power[j] = lanes->rhs.power[j][k];
     run->counts.evaluations += 2 * steps - !!run->series.ready;
-    run->choice.n_opposing_steps = run->newton.ready = run->series.ready = 0;
+    run->choice.n_opposing_steps = (int)min_of(0.0, (double)run->choice.n_opposing_steps + (double)steps);
+    run->newton.ready = run->series.ready = 0;
     run->choice.h_rho = 0.0;
     run->choice.mean_length[0] = local_steps->mean_length[k];
     run->series.max_step = local_steps->max_step[k];

@@ -24,7 +24,7 @@
 #define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
 enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps until the stiff method is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
-    RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
+    RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24, MAX_RECONSIDER_STEPS = 256 /* steps until a refused change is tested */,
     MAX_OPPOSING_STEPS = 3 /* successive steps against the explicit method until the first change */,
     MAX_OPPOSING_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
     CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
@@ -147,8 +147,8 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
  * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho (spectral
  * radius of the Jacobian, 1/s), or when its steps do not pay; the next switch to it then needs twice as many steps.
- * With films it is not left while its steps still grow (MAX_OPPOSING_GROWTH). A refused switch waits RECONSIDER_STEPS.
- * Called after each accepted step.
+ * With films it is not left while its steps still grow (MAX_OPPOSING_GROWTH). A refused switch waits RECONSIDER_STEPS,
+ * from the explicit method as many steps as since the last one, if more. Called after each accepted step.
  */
 static void switch_method_after_step(Integrator *run, const Parameters *p)
 {
@@ -165,7 +165,7 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
         return;
     }
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY
-        : stability > run->choice.method->limiting_h_rho || slower;
+        : stability > run->choice.method->limiting_h_rho || slower || run->choice.n_opposing_steps < 0 /* waits */;
     run->choice.n_opposing_steps = against ? run->choice.n_opposing_steps + 1 : 0;
     run->choice.steps_since_change++;
     if (run->choice.n_opposing_steps == 1)
@@ -182,7 +182,8 @@ static void switch_method_after_step(Integrator *run, const Parameters *p)
     if (stiff ? rate * run->control.h < MAX_EXPLICIT_STABILITY : is_limited_by_stability(run, rate))
         change_method(run);
     else
-        run->choice.n_opposing_steps = -RECONSIDER_STEPS;
+        run->choice.n_opposing_steps = stiff ? -RECONSIDER_STEPS
+            : -(int)min_of(MAX_RECONSIDER_STEPS, max_of(RECONSIDER_STEPS, run->choice.steps_since_change));
     run->choice.rho = rate;
 }
 

@@ -12,12 +12,12 @@ enum { MIN_TAYLOR_ORDER = 4 };
 static const double taylor_error_nodes[] = {0.0, 1.0}; /* the series, and the defect at the end of a step */
 
 /*
- * Return the order of the Taylor series for a relative tolerance: ceil(1 - TAYLOR_ORDERS_PER_E_FOLD ln tolerance),
- * between MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles and speeds have the same tolerance.
+ * Return the order of the Taylor series for a relative tolerance: ceil(1 - ORDERS_PER_E_FOLD ln tolerance), between
+ * MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles and speeds have the same tolerance.
  */
 static int choose_taylor_order(double tolerance)
 {
-    const double order = ceil(1.0 - TAYLOR_ORDERS_PER_E_FOLD * log(tolerance));
+    const double order = ceil(1.0 - ORDERS_PER_E_FOLD * log(tolerance));
     return order > TAYLOR_ORDERS ? TAYLOR_ORDERS : order < MIN_TAYLOR_ORDER ? MIN_TAYLOR_ORDER : (int)order;
 }
 

@@ -5,6 +5,13 @@
  * the derived functions fill a SeriesWide. In lanes, both are one product of several runs.
  */
 #define SERIES_NOINLINE __attribute__((noinline)) /* the address of thread-local memory is found only once */
+#if TAYLOR <= 8
+#define SERIES_SUM static inline
+#define SERIES_ORDERS __attribute__((noinline, flatten)) static /* the sums of few products stay in registers */
+#else
+#define SERIES_SUM SERIES_NOINLINE static
+#define SERIES_ORDERS SERIES_NOINLINE static
+#endif
 
 enum {
     SERIES_WHOLE = sizeof(SeriesRow) > sizeof(SeriesWide) ? sizeof(SeriesRow) : sizeof(SeriesWide),
@@ -24,7 +31,7 @@ typedef union {
  * add_outer_products() adds the other two terms. Odd and even terms are summed separately, and those of order k - 1
  * come last: the processor computes most of the sums before these are known.
  */
-SERIES_NOINLINE static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
+SERIES_SUM void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum, SeriesRow *next_sum)
 {
     for (int i = 0; i < SERIES_USED; i++) {
@@ -51,7 +58,7 @@ SERIES_NOINLINE static void sum_inner_products(int k, SeriesRow (*left)[SERIES_R
  * Add the outer terms left_1 right_{k-1} and left_{k-1} right_1 of the Cauchy products to each sum of order k, which
  * sum_inner_products() left out. For k = 2 they are one term.
  */
-SERIES_NOINLINE static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
+SERIES_SUM void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum)
 {
     for (int i = 0; i < SERIES_USED; i++)
@@ -59,27 +66,39 @@ SERIES_NOINLINE static void add_outer_products(int k, SeriesRow (*left)[SERIES_R
 }
 
 /*
+ * Compute the series coefficients c[k + 1] of the state from those of order k, and the factors of order k. sum: of the
+ * products of order k without their outer terms, which are added. Other arguments as in compute_series_orders().
+ */
+static void compute_series_order(int k, const ParametersOf *p, const TaylorValues *values, Real (*c)[TAYLOR_Y],
+    SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS], SeriesSums *sum)
+{
+    Real *next = c[k + 1];
+    if (k > 1)
+        add_outer_products(k, left, right, sum->row);
+    for (int i = 0; i < N_X; i++)
+        next[i] = c[k][N_X + i] * make_real(1.0 / (k + 1));
+    taylor_terms(make_real(k), make_real(1.0 / k), make_real(1.0 / (k + 1)), make_real(k == 1 ? 1.0 : 0.0), c[k],
+        c[k] + N_X, p, values, &sum->of, next + N_X, next + 2 * N_X, (SeriesWide *)left[k], (SeriesWide *)right[k]);
+}
+
+/*
  * Compute the series coefficients c[k] of the state for k = 2 ... order, one order after the other. c[0], and
  * accelerations and powers in c[1], must be set; `values`: values of order 0 of all functions. left, right: memory for
  * the factors of all products.
  */
-SERIES_NOINLINE static void compute_series_orders(const ParametersOf *p, const TaylorValues *values, int order,
+SERIES_ORDERS void compute_series_orders(const ParametersOf *p, const TaylorValues *values, int order,
     Real (*c)[TAYLOR_Y], SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS])
 {
-    SeriesSums sum[2] = {0};
+    SeriesSums sum = {0}, next_sum = {0};
     for (int i = 0; i < N_X; i++)
         c[1][i] = c[0][N_X + i];
-    for (int k = 1; k < order; k++) {
-        Real *next = c[k + 1];
-        if (k % 2 == 0)
-            sum_inner_products(k, left, right, sum[0].row, sum[1].row);
-        if (k > 1)
-            add_outer_products(k, left, right, sum[k % 2].row);
-        for (int i = 0; i < N_X; i++)
-            next[i] = c[k][N_X + i] * make_real(1.0 / (k + 1));
-        taylor_terms(make_real(k), make_real(1.0 / k), make_real(1.0 / (k + 1)), make_real(k == 1 ? 1.0 : 0.0), c[k],
-            c[k] + N_X, p, values, &sum[k % 2].of, next + N_X, next + 2 * N_X, (SeriesWide *)left[k],
-            (SeriesWide *)right[k]);
+    if (order > 1)
+        compute_series_order(1, p, values, c, left, right, &sum);
+    for (int k = 2; k < order; k += 2) {
+        sum_inner_products(k, left, right, sum.row, next_sum.row);
+        compute_series_order(k, p, values, c, left, right, &sum);
+        if (k + 1 < order)
+            compute_series_order(k + 1, p, values, c, left, right, &next_sum);
     }
 }
 

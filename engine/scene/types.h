@@ -24,8 +24,19 @@ enum {
     FIRST_STATE = 2 * N_X + N_WORK     /* index of the first internal state in it */
 };
 
+/*
+ * Orders of a Taylor series: at most, for the smallest tolerance, and per factor e of the tolerance. Sums of few
+ * products take less time than the other operations of an order. More orders, and longer steps, are then cheaper.
+ */
+#if TAYLOR && TAYLOR <= 8
+enum { TAYLOR_ORDERS = 38 };
+#define ORDERS_PER_E_FOLD 1.0
+#else
+enum { TAYLOR_ORDERS = 27 };
+#define ORDERS_PER_E_FOLD TAYLOR_ORDERS_PER_E_FOLD
+#endif
+
 enum {
-    TAYLOR_ORDERS = 27,                /* of a series, at most: for the smallest tolerance */
     TAYLOR_Y = (N_Y + 7) / 8 * 8       /* numbers of an order: those of N_Y, in whole vectors */
 };
 

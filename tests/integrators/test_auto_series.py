@@ -135,6 +135,15 @@ def test_a_stiff_motion_is_left_to_the_stiff_method(damped: Simulation) -> None:
     assert gentle.diagnostics.method == TAYLOR and gentle.diagnostics.stiff_steps == 0
 
 
+def test_smooth_motion_is_seldom_tested_for_stiffness() -> None:
+    """`auto` has the bits of a series of a tenth of its tolerance, and needs at most 3 % more right-hand sides."""
+    double = load_double_pendulum()
+    runs = [double.simulate(600.0, output=5, method=method, rtol=r) for method, r in (("auto", 1e-8), (TAYLOR, 1e-9))]
+    assert runs[0].q.tobytes() == runs[1].q.tobytes()
+    counts = [run.diagnostics.right_hand_sides for run in runs]
+    assert counts[1] > 10_000 and counts[0] < 1.03 * counts[1]
+
+
 @pytest.mark.parametrize("rtol", [1e-6, 1e-10])
 def test_lanes_with_and_without_stiffness(damped: Simulation, at_once: Seen, rtol: float) -> None:  # noqa: F811
     """Runs that become stiff leave the lanes of the series; the bits are those of single runs."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.special import ellipk
 
 import gudgeon
 from gudgeon.errors import BadValueError
@@ -94,6 +95,25 @@ def test_one_link_over_ten_thousand_periods(links: Links) -> None:
         short, long = (energy_error(swing(links(1), (angle,), count * PERIOD, 1e-16), 1) for count in (100, 10_000))
         assert long < 10_000 * 2.0**-52
         assert short < 100 * 2.0**-52
+
+
+@needs_compiler
+@pytest.mark.parametrize("rtol", [1e-6, 1e-10, 1e-14])
+def test_steps_of_one_link_follow_the_poles_of_its_motion(links: Links, rtol: float) -> None:
+    """A step is 1/e of the distance R to the nearest pole, because the order is near -ln rtol.
+
+    With the modulus k = sin(amplitude / 2), the angular velocity is proportional to the elliptic function cn. Its poles
+    have the distance K' from the real axis, opposite to the passages of the lowest position. A quarter of a period K
+    has the integral of e dt / R steps, e asinh(K / K').
+    """
+    frequency = math.sqrt(GRAVITY * LENGTH / 2.0 / (INERTIA + LENGTH**2 / 4.0))
+    for angle in (0.0, -0.6, 0.6):
+        modulus = math.sin((math.pi / 2.0 + angle) / 2.0)
+        quarter, distance = ellipk(modulus**2), ellipk(1.0 - modulus**2)
+        n_quarters = 400
+        run = swing(links(1), (angle,), n_quarters * quarter / frequency, rtol)
+        expected = n_quarters * math.e * math.asinh(quarter / distance)
+        assert 0.8 * expected < run.diagnostics.steps < 1.15 * expected
 
 
 @pytest.mark.slow
