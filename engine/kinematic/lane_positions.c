@@ -44,11 +44,11 @@ static inline Lanes get_lane_time_after_jump(Lanes t)
 
 /*
  * Compute Newton's step of the closures at times t (s), with the rates and the largest |Phi|, and the motion of all
- * bodies. Inlined, both functions share sines and factors. Lanes in which a pivot vanishes are added to the mask
- * `needs_scalar`: they need their scalar run.
+ * bodies. Inlined, both functions share sines and factors: `restrict` tells the compiler that outputs overwrite no
+ * inputs. Lanes in which a pivot vanishes are added to the mask `needs_scalar`: they need their scalar run.
  */
-__attribute__((flatten)) static void evaluate_position(const LaneParameters *p, Lanes t, LanePosition *position,
-    Lanes *step, LaneBits *needs_scalar)
+__attribute__((flatten)) static void evaluate_position(const LaneParameters *restrict p, Lanes t,
+    LanePosition *restrict position, Lanes *restrict step, LaneBits *restrict needs_scalar)
 {
     close_step(t, position->s, p, step, position->s_rate, &position->phi, needs_scalar);
     compute_body_motion(t, position->s, position->s_rate, p, position->s_second, position->q, position->v, position->a,
@@ -61,19 +61,21 @@ __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, 
  * corrections of all unsolved lanes are below NEWTON_NEARLY_CLOSED, the motion is evaluated together with Newton's
  * step; otherwise after the iteration. correction: incremented by the corrections, in rad or fractions of the size.
  */
-static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
-    Lanes *correction)
+__attribute__((flatten)) static LaneBits solve_lane_equations(const LaneParameters *restrict p, Lanes extent,
+    Lanes t, LanePosition *restrict position, Lanes *restrict correction)
 {
     LaneBits is_active = ~(LaneBits){0}, is_failed = {0}, needs_scalar = {0};
-    Lanes before = broadcast(INFINITY), step[N_X + 1];
-    int has_motion = 0;
-    for (int i = 0; i < MAX_NEWTON && any_of(is_active); i++) {
+    Lanes before = broadcast(INFINITY), step[N_X + 1], rates[N_X + 1], phi;
+    for (int i = 0, is_complete = 0; !is_complete; i++) {
         Lanes size = broadcast(0.0);
-        has_motion = !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
+        const int has_motion = i == MAX_NEWTON || !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
         if (has_motion)
             evaluate_position(p, t, position, step, &needs_scalar);
         else
-            close_step(t, position->s, p, step, position->s_rate, &position->phi, &needs_scalar);
+            close_step(t, position->s, p, step, rates, &phi, &needs_scalar);
+        is_complete = i == MAX_NEWTON;
+        if (is_complete)
+            break;
         for (int k = 0; k < N_X; k++)
             size = get_larger_or_nan(size, compute_coordinate_size(step[k], k, extent));
         position->last_correction = size;
@@ -83,9 +85,8 @@ static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lane
             position->s[k] = select_value(is_active, position->s[k] - step[k], position->s[k]);
         *correction = select_value(is_active, *correction + size, *correction);
         before = select_value(is_active, size, before);
+        is_complete = has_motion && !any_of(is_active);
     }
-    if (!has_motion || any_of(is_active))
-        evaluate_position(p, t, position, step, &needs_scalar);
     return is_failed | needs_scalar | is_active;
 }
 
