@@ -153,7 +153,7 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
 {
     const KinematicBatch *batch = lanes->batch;
     const LanePosition *at = lanes->position;
-    Lanes largest = broadcast(0.0), zero = broadcast(0.0);
+    Lanes largest = broadcast(0.0), largest_or_nan = broadcast(0.0);
     DirectionOf direction = {.body = -1};
     for (long j = 0; j < batch->n_series; j++) {
         const MotionSeries *series = &batch->series[j];
@@ -163,12 +163,12 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
     }
     for (int j = 0; j < N_Q; j++) {
         largest = lanes_max_of(lanes_fabs(at->a[j]), largest);
-        zero += 0.0 * at->a[j];
+        largest_or_nan = get_larger_or_nan(largest_or_nan, at->a[j]);
     }
-    for (int j = 0; j < N_WORK; j++)
-        zero += 0.0 * lanes->work[j];
     lanes->block[0][row] = largest;
-    lanes->are_finite &= (zero == 0.0) | ~is_sample;
+    for (int j = 0; j < N_WORK; j++)
+        largest_or_nan = get_larger_or_nan(largest_or_nan, lanes->work[j]);
+    lanes->are_finite &= (largest_or_nan <= DBL_MAX) | ~is_sample;
     lanes->phi_max = select_value(is_sample, lanes_max_of(at->phi, lanes->phi_max), lanes->phi_max);
     lanes->phi_dot_max = select_value(is_sample, lanes_max_of(at->phi_dot, lanes->phi_dot_max), lanes->phi_dot_max);
     lanes->largest_a = select_value(is_sample, lanes_max_of(lanes->largest_a, largest), lanes->largest_a);
