@@ -15,7 +15,8 @@ enum { BLOCK_ROWS = 16 };
  * one and memory for the next one.
  *
  * Steps in which all runs reach their next samples are in lockstep: n_lockstep of them, limit at most, are not yet
- * counted in the runs. Their series, after the largest |a|, are the columns of `block`.
+ * counted in the runs. Their series, after the largest |a|, are the columns of `block`; next_times: those of the samples
+ * after them, s.
  */
 typedef struct {
     const KinematicBatch *batch;
@@ -25,7 +26,7 @@ typedef struct {
     LaneParameters p;
     LanePosition positions[2], *position, *next;
     LaneBits has_run, are_finite;
-    Lanes h, t1, extent, work[N_WORK], phi_max, phi_dot_max, largest_a, smallest_a;
+    Lanes h, t1, extent, work[N_WORK], phi_max, phi_dot_max, largest_a, smallest_a, next_times[BLOCK_ROWS];
     Lanes block[MAX_MOTION_SERIES + 1][BLOCK_ROWS];
 } RunLanes;
 
@@ -241,18 +242,18 @@ static long find_lockstep_limit(const RunLanes *lanes)
 }
 
 /*
- * Return the time of the sample after the next one in each lane; at the end of a run, that of its last sample; in a
- * lane without a run, t1.
+ * Begin a block of steps in lockstep: set its limit, and the times of the samples up to there; a lane without a run
+ * keeps t1. Vectors of times are written in advance, since reading a vector that has just been written lane by lane
+ * stalls.
  */
-static Lanes get_second_next_sample_times(const RunLanes *lanes)
+static void begin_lockstep_block(RunLanes *lanes)
 {
-    Lanes t = lanes->t1;
+    lanes->limit = find_lockstep_limit(lanes);
     for (int k = 0; k < LANES; k++) {
         const RunSamples *samples = &lanes->run[k]->samples;
-        const long second_next = samples->done + lanes->n_lockstep + 1;
-        t[k] = lanes->index[k] < 0 ? t[k] : samples->t[second_next < samples->n ? second_next : samples->n - 1];
+        for (long row = 0; row < lanes->limit; row++)
+            lanes->next_times[row][k] = lanes->index[k] < 0 ? lanes->t1[k] : samples->t[samples->done + row + 1];
     }
-    return t;
 }
 
 /* End the run in lane k with a status, and free the lane. */
@@ -404,9 +405,8 @@ static void advance_run_lanes(RunLanes *lanes)
     const LanePosition *const position = lanes->position;
     LanePosition *const next = lanes->next;
     if (!lanes->n_lockstep)
-        lanes->limit = find_lockstep_limit(lanes);
+        begin_lockstep_block(lanes);
     const Lanes sum = position->t + lanes->h, t = select_value(sum < lanes->t1, sum, lanes->t1);
-    const Lanes second_next_times = get_second_next_sample_times(lanes);
     Lanes correction;
     LaneBits is_irregular =
         ~(t > position->t) | solve_lane_positions(&lanes->p, lanes->extent, t, position, next, &correction);
@@ -429,8 +429,8 @@ static void advance_run_lanes(RunLanes *lanes)
     }
     accept_next_positions(lanes, is_accepted);
     add_lane_samples(lanes, is_sample, lanes->n_lockstep++);
-    lanes->t1 = second_next_times;
-    lanes->h = second_next_times - t;
+    lanes->t1 = lanes->next_times[lanes->n_lockstep - 1];
+    lanes->h = lanes->t1 - t;
     if (lanes->n_lockstep == lanes->limit)
         count_lockstep_steps(lanes);
 }
