@@ -6,7 +6,7 @@
 #include "../batch/lane_calls.h"
 #include "../scalar_simd/motion_series.h"
 
-enum { BLOCK_ROWS = 16 };
+enum { BLOCK_ROWS = 16, CACHE_LINE_NUMBERS = 8 /* of a line of 64 bytes */ };
 
 /*
  * The runs in the lanes, -1: none; has_run: their mask. t1: time of the next sample, s; h: length of the step. Works
@@ -178,7 +178,8 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
 
 /*
  * Gather one lane: copy the first n rows of lane k in a column of the block to `values`, a result array of the lane's
- * run. The loop for n = BLOCK_ROWS has a fixed length.
+ * run, and prefetch the memory of later rows, which is not in the CPU cache. The loop for n = BLOCK_ROWS has a fixed
+ * length.
  */
 static inline void gather_lane_column(const Lanes *column, int k, long n, double *values)
 {
@@ -188,6 +189,8 @@ static inline void gather_lane_column(const Lanes *column, int k, long n, double
     else
         for (long row = 0; row < n; row++)
             values[row] = column[row][k];
+    for (long row = 0; row < n; row += CACHE_LINE_NUMBERS)
+        __builtin_prefetch(values + row + BLOCK_ROWS + CACHE_LINE_NUMBERS, 1);
 }
 
 /* Copy n rows of the block in lane k, largest |a| and series, to the next n samples of its run. */
