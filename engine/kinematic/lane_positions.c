@@ -67,22 +67,21 @@ __attribute__((flatten)) static void evaluate_position(const LaneParameters *res
  * Solve the closures at times t by Newton's method from the guess in `position`, and compute the motion of all bodies
  * there. Return the lanes in which it failed. Solved lanes keep their coordinates while others iterate. As soon as the
  * corrections of all unsolved lanes are below NEWTON_NEARLY_CLOSED, the motion is evaluated together with Newton's
- * step; otherwise after the iteration. correction: incremented by the corrections, in rad or fractions of the size.
+ * step. correction: incremented by the corrections, in rad or fractions of the size.
  */
 __attribute__((flatten)) static LaneBits solve_lane_equations(const LaneParameters *restrict p, Lanes extent,
     Lanes t, LanePosition *restrict position, Lanes *restrict correction)
 {
     LaneBits is_active = ~(LaneBits){0}, is_failed = {0}, needs_scalar = {0};
     Lanes before = broadcast(INFINITY), step[N_X + 1], rates[N_X + 1], phi;
-    for (int i = 0, is_complete = 0; !is_complete; i++) {
+    for (int i = 0;; i++) {
         Lanes size = broadcast(0.0);
         const int has_motion = i == MAX_NEWTON || !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
         if (has_motion)
             evaluate_position(p, t, position, step, &needs_scalar);
         else
             close_step(t, position->s, p, step, rates, &phi, &needs_scalar);
-        is_complete = i == MAX_NEWTON;
-        if (is_complete)
+        if (i == MAX_NEWTON)
             break;
         for (int k = 0; k < N_X; k++)
             size = get_larger_or_nan(size, scale_coordinate_change(step[k], k, extent));
@@ -93,7 +92,8 @@ __attribute__((flatten)) static LaneBits solve_lane_equations(const LaneParamete
             position->s[k] = select_value(is_active, position->s[k] - step[k], position->s[k]);
         *correction = select_value(is_active, *correction + size, *correction);
         before = select_value(is_active, size, before);
-        is_complete = has_motion && !any_of(is_active);
+        if (has_motion && !any_of(is_active))
+            break;
     }
     return is_failed | needs_scalar | is_active;
 }

@@ -15,8 +15,8 @@ enum { BLOCK_ROWS = 16, CACHE_LINE_NUMBERS = 8 /* of a line of 64 bytes */ };
  * one and memory for the next one.
  *
  * Steps in which all runs reach their next samples are in lockstep: n_lockstep of them, limit at most, are not yet
- * counted in the runs. Their series, after the largest |a|, are the columns of `block`; next_times: those of the samples
- * after them, s.
+ * counted in the runs. Their series, after the largest |a|, are the columns of `block`. next_times: times of the
+ * samples after these steps, s.
  */
 typedef struct {
     const KinematicBatch *batch;
