@@ -12,10 +12,18 @@ typedef struct {
     Lanes interval, s_higher[N_X + 1][N_HIGHER];
 } LanePosition;
 
-/* Return the maximum of two numbers in each lane; NaN if `value` is NaN. */
+/*
+ * Return the maximum of `largest`, which is not negative, and |value| in each lane; NaN if one of them is NaN. Numbers
+ * without a sign are ordered as their bits, and the bits of NaN are above those of infinity.
+ */
 static inline Lanes get_larger_or_nan(Lanes largest, Lanes value)
 {
-    return select_value((value > largest) | (value != value), value, largest);
+    const LaneBits size = (LaneBits)lanes_fabs(value);
+#if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
+    return (Lanes)__builtin_ia32_pmaxsq512_mask(size, (LaneBits)largest, size, (char)-1);
+#else
+    return select_value(size > (LaneBits)largest, (Lanes)size, largest);
+#endif
 }
 
 /*
@@ -26,14 +34,14 @@ static Lanes compute_scaled_max_norm(const Lanes *change, Lanes extent)
 {
     Lanes largest = broadcast(0.0);
     for (int k = 0; k < N_Q; k++)
-        largest = get_larger_or_nan(largest, k % 3 == 2 ? lanes_fabs(change[k]) : lanes_fabs(change[k]) / extent);
+        largest = get_larger_or_nan(largest, k % 3 == 2 ? change[k] : change[k] / extent);
     return largest;
 }
 
-/* Return the absolute change of tree coordinate k, in rad or as a fraction of the mechanism's size `extent`. */
-static inline Lanes compute_coordinate_size(Lanes change, int k, Lanes extent)
+/* Return the change of tree coordinate k, in rad or as a fraction of the mechanism's size `extent`. */
+static inline Lanes scale_coordinate_change(Lanes change, int k, Lanes extent)
 {
-    return is_angle[k] ? lanes_fabs(change) : lanes_fabs(change) / extent;
+    return is_angle[k] ? change : change / extent;
 }
 
 /* Return the time at which the drives are evaluated in each lane: just after t if their rates may jump, else t. */
@@ -44,11 +52,11 @@ static inline Lanes get_lane_time_after_jump(Lanes t)
 
 /*
  * Compute Newton's step of the closures at times t (s), with the rates and the largest |Phi|, and the motion of all
- * bodies. Inlined, both functions share sines and factors. Lanes in which a pivot vanishes are added to the mask
- * `needs_scalar`: they need their scalar run.
+ * bodies. Inlined, both functions share sines and factors: `restrict` tells the compiler that outputs overwrite no
+ * inputs. Lanes in which a pivot vanishes are added to the mask `needs_scalar`: they need their scalar run.
  */
-__attribute__((flatten)) static void evaluate_position(const LaneParameters *p, Lanes t, LanePosition *position,
-    Lanes *step, LaneBits *needs_scalar)
+__attribute__((flatten)) static void evaluate_position(const LaneParameters *restrict p, Lanes t,
+    LanePosition *restrict position, Lanes *restrict step, LaneBits *restrict needs_scalar)
 {
     close_step(t, position->s, p, step, position->s_rate, &position->phi, needs_scalar);
     compute_body_motion(t, position->s, position->s_rate, p, position->s_second, position->q, position->v, position->a,
@@ -59,23 +67,24 @@ __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, 
  * Solve the closures at times t by Newton's method from the guess in `position`, and compute the motion of all bodies
  * there. Return the lanes in which it failed. Solved lanes keep their coordinates while others iterate. As soon as the
  * corrections of all unsolved lanes are below NEWTON_NEARLY_CLOSED, the motion is evaluated together with Newton's
- * step; otherwise after the iteration. correction: incremented by the corrections, in rad or fractions of the size.
+ * step. correction: incremented by the corrections, in rad or fractions of the size.
  */
-static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
-    Lanes *correction)
+__attribute__((flatten)) static LaneBits solve_lane_equations(const LaneParameters *restrict p, Lanes extent,
+    Lanes t, LanePosition *restrict position, Lanes *restrict correction)
 {
     LaneBits is_active = ~(LaneBits){0}, is_failed = {0}, needs_scalar = {0};
-    Lanes before = broadcast(INFINITY), step[N_X + 1];
-    int has_motion = 0;
-    for (int i = 0; i < MAX_NEWTON && any_of(is_active); i++) {
+    Lanes before = broadcast(INFINITY), step[N_X + 1], rates[N_X + 1], phi;
+    for (int i = 0;; i++) {
         Lanes size = broadcast(0.0);
-        has_motion = !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
+        const int has_motion = i == MAX_NEWTON || !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
         if (has_motion)
             evaluate_position(p, t, position, step, &needs_scalar);
         else
-            close_step(t, position->s, p, step, position->s_rate, &position->phi, &needs_scalar);
+            close_step(t, position->s, p, step, rates, &phi, &needs_scalar);
+        if (i == MAX_NEWTON)
+            break;
         for (int k = 0; k < N_X; k++)
-            size = get_larger_or_nan(size, compute_coordinate_size(step[k], k, extent));
+            size = get_larger_or_nan(size, scale_coordinate_change(step[k], k, extent));
         position->last_correction = size;
         is_failed |= is_active & (needs_scalar | (size != size));
         is_active &= ~(is_failed | (size < NEWTON_ROUNDING) | ((size < NEWTON_CLOSED) & (size >= 0.5 * before)));
@@ -83,9 +92,9 @@ static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lane
             position->s[k] = select_value(is_active, position->s[k] - step[k], position->s[k]);
         *correction = select_value(is_active, *correction + size, *correction);
         before = select_value(is_active, size, before);
+        if (has_motion && !any_of(is_active))
+            break;
     }
-    if (!has_motion || any_of(is_active))
-        evaluate_position(p, t, position, step, &needs_scalar);
     return is_failed | needs_scalar | is_active;
 }
 
@@ -99,9 +108,9 @@ static void guess_lane_positions(Lanes extent, Lanes t, const LanePosition *star
     Lanes largest = broadcast(0.0), largest_displacement = broadcast(0.0), displacement[N_X + 1];
     for (int k = 0; k < N_X; k++) {
         displacement[k] = sum_higher_terms(r, start->s_higher[k]);
-        largest = get_larger_or_nan(largest, compute_coordinate_size(0.5 * h * h * start->s_second[k], k, extent));
+        largest = get_larger_or_nan(largest, scale_coordinate_change(0.5 * h * h * start->s_second[k], k, extent));
         largest_displacement =
-            get_larger_or_nan(largest_displacement, compute_coordinate_size(displacement[k], k, extent));
+            get_larger_or_nan(largest_displacement, scale_coordinate_change(displacement[k], k, extent));
     }
     const Lanes half_h = select_value(largest <= MAX_SECOND_RATE_DISPLACEMENT, 0.5 * h, broadcast(0.0));
     const LaneBits has_second = half_h != 0.0,
@@ -140,11 +149,14 @@ static LaneBits solve_lane_positions(const LaneParameters *p, Lanes extent, Lane
 static Lanes compute_trapezoidal_error(const LanePosition *a, const LanePosition *b, Lanes extent)
 {
     const Lanes half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
-    Lanes largest[2] = {broadcast(0.0), broadcast(0.0)}; /* lengths, angles */
-    for (int k = 0; k < N_Q; k++)
-        largest[k % 3 == 2] = get_larger_or_nan(largest[k % 3 == 2],
-            lanes_fabs(b->q[k] - a->q[k] - half * (a->v[k] + b->v[k])));
-    return get_larger_or_nan(largest[1], largest[0] * fraction);
+    Lanes lengths = broadcast(0.0), angles = broadcast(0.0), error[3];
+    for (int k = 0; k < N_Q; k += 3) {
+        for (int c = 0; c < 3; c++)
+            error[c] = b->q[k + c] - a->q[k + c] - half * (a->v[k + c] + b->v[k + c]);
+        lengths = get_larger_or_nan(get_larger_or_nan(lengths, error[0]), error[1]);
+        angles = get_larger_or_nan(angles, error[2]);
+    }
+    return get_larger_or_nan(angles, lengths * fraction);
 }
 
 /*
@@ -155,7 +167,7 @@ static LaneBits find_ill_conditioned_lanes(const LanePosition *position)
 {
     Lanes size = broadcast(1.0);
     for (int k = 2; k < N_Q; k += 3)
-        size = get_larger_or_nan(size, lanes_fabs(position->q[k]));
+        size = get_larger_or_nan(size, position->q[k]);
     return ~(position->last_correction <= MIN_PASS_CORRECTION * DBL_EPSILON * size);
 }
 

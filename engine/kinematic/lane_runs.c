@@ -6,7 +6,7 @@
 #include "../batch/lane_calls.h"
 #include "../scalar_simd/motion_series.h"
 
-enum { BLOCK_ROWS = 16 };
+enum { BLOCK_ROWS = 16, CACHE_LINE_NUMBERS = 8 /* of a line of 64 bytes */ };
 
 /*
  * The runs in the lanes, -1: none; has_run: their mask. t1: time of the next sample, s; h: length of the step. Works
@@ -15,7 +15,8 @@ enum { BLOCK_ROWS = 16 };
  * one and memory for the next one.
  *
  * Steps in which all runs reach their next samples are in lockstep: n_lockstep of them, limit at most, are not yet
- * counted in the runs. Their series, after the largest |a|, are the columns of `block`.
+ * counted in the runs. Their series, after the largest |a|, are the columns of `block`. next_times: times of the
+ * samples after these steps, s.
  */
 typedef struct {
     const KinematicBatch *batch;
@@ -25,7 +26,7 @@ typedef struct {
     LaneParameters p;
     LanePosition positions[2], *position, *next;
     LaneBits has_run, are_finite;
-    Lanes h, t1, extent, work[N_WORK], phi_max, phi_dot_max, largest_a, smallest_a;
+    Lanes h, t1, extent, work[N_WORK], phi_max, phi_dot_max, largest_a, smallest_a, next_times[BLOCK_ROWS];
     Lanes block[MAX_MOTION_SERIES + 1][BLOCK_ROWS];
 } RunLanes;
 
@@ -153,7 +154,7 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
 {
     const KinematicBatch *batch = lanes->batch;
     const LanePosition *at = lanes->position;
-    Lanes largest = broadcast(0.0), zero = broadcast(0.0);
+    Lanes largest = broadcast(0.0), largest_or_nan = broadcast(0.0);
     DirectionOf direction = {.body = -1};
     for (long j = 0; j < batch->n_series; j++) {
         const MotionSeries *series = &batch->series[j];
@@ -163,12 +164,12 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
     }
     for (int j = 0; j < N_Q; j++) {
         largest = lanes_max_of(lanes_fabs(at->a[j]), largest);
-        zero += 0.0 * at->a[j];
+        largest_or_nan = get_larger_or_nan(largest_or_nan, at->a[j]);
     }
-    for (int j = 0; j < N_WORK; j++)
-        zero += 0.0 * lanes->work[j];
     lanes->block[0][row] = largest;
-    lanes->are_finite &= (zero == 0.0) | ~is_sample;
+    for (int j = 0; j < N_WORK; j++)
+        largest_or_nan = get_larger_or_nan(largest_or_nan, lanes->work[j]);
+    lanes->are_finite &= (largest_or_nan <= DBL_MAX) | ~is_sample;
     lanes->phi_max = select_value(is_sample, lanes_max_of(at->phi, lanes->phi_max), lanes->phi_max);
     lanes->phi_dot_max = select_value(is_sample, lanes_max_of(at->phi_dot, lanes->phi_dot_max), lanes->phi_dot_max);
     lanes->largest_a = select_value(is_sample, lanes_max_of(lanes->largest_a, largest), lanes->largest_a);
@@ -177,7 +178,8 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
 
 /*
  * Gather one lane: copy the first n rows of lane k in a column of the block to `values`, a result array of the lane's
- * run. The loop for n = BLOCK_ROWS has a fixed length.
+ * run, and prefetch the memory of later rows, which is not in the CPU cache. The loop for n = BLOCK_ROWS has a fixed
+ * length.
  */
 static inline void gather_lane_column(const Lanes *column, int k, long n, double *values)
 {
@@ -187,6 +189,8 @@ static inline void gather_lane_column(const Lanes *column, int k, long n, double
     else
         for (long row = 0; row < n; row++)
             values[row] = column[row][k];
+    for (long row = 0; row < n; row += CACHE_LINE_NUMBERS)
+        __builtin_prefetch(values + row + BLOCK_ROWS + CACHE_LINE_NUMBERS, 1);
 }
 
 /* Copy n rows of the block in lane k, largest |a| and series, to the next n samples of its run. */
@@ -241,18 +245,18 @@ static long find_lockstep_limit(const RunLanes *lanes)
 }
 
 /*
- * Return the time of the sample after the next one in each lane; at the end of a run, that of its last sample; in a
- * lane without a run, t1.
+ * Begin a block of steps in lockstep: set its limit, and the times of the samples up to there; a lane without a run
+ * keeps t1. Vectors of times are written in advance, since reading a vector that has just been written lane by lane
+ * stalls.
  */
-static Lanes get_second_next_sample_times(const RunLanes *lanes)
+static void begin_lockstep_block(RunLanes *lanes)
 {
-    Lanes t = lanes->t1;
+    lanes->limit = find_lockstep_limit(lanes);
     for (int k = 0; k < LANES; k++) {
         const RunSamples *samples = &lanes->run[k]->samples;
-        const long second_next = samples->done + lanes->n_lockstep + 1;
-        t[k] = lanes->index[k] < 0 ? t[k] : samples->t[second_next < samples->n ? second_next : samples->n - 1];
+        for (long row = 0; row < lanes->limit; row++)
+            lanes->next_times[row][k] = lanes->index[k] < 0 ? lanes->t1[k] : samples->t[samples->done + row + 1];
     }
-    return t;
 }
 
 /* End the run in lane k with a status, and free the lane. */
@@ -404,9 +408,8 @@ static void advance_run_lanes(RunLanes *lanes)
     const LanePosition *const position = lanes->position;
     LanePosition *const next = lanes->next;
     if (!lanes->n_lockstep)
-        lanes->limit = find_lockstep_limit(lanes);
+        begin_lockstep_block(lanes);
     const Lanes sum = position->t + lanes->h, t = select_value(sum < lanes->t1, sum, lanes->t1);
-    const Lanes second_next_times = get_second_next_sample_times(lanes);
     Lanes correction;
     LaneBits is_irregular =
         ~(t > position->t) | solve_lane_positions(&lanes->p, lanes->extent, t, position, next, &correction);
@@ -429,8 +432,8 @@ static void advance_run_lanes(RunLanes *lanes)
     }
     accept_next_positions(lanes, is_accepted);
     add_lane_samples(lanes, is_sample, lanes->n_lockstep++);
-    lanes->t1 = second_next_times;
-    lanes->h = second_next_times - t;
+    lanes->t1 = lanes->next_times[lanes->n_lockstep - 1];
+    lanes->h = lanes->t1 - t;
     if (lanes->n_lockstep == lanes->limit)
         count_lockstep_steps(lanes);
 }

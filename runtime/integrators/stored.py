@@ -273,6 +273,8 @@ class StoredRuns:
 
     def list_contacts(self) -> tuple[NDArray[Any], ...]:
         """Return the contacts (IMPACT_DTYPE) of each run, as views of one array; called after all runs have ended."""
+        if not len(self.contacts):
+            return (self.contacts,) * self.n
         return tuple(self.contacts[a:b] for a, b in pairwise(self.first_contact_indices.tolist()))
 
     def list_events(self) -> tuple[NDArray[Any], ...]:

@@ -13,6 +13,7 @@ import numpy as np
 from gudgeon.assembly.guess_warnings import warn_guess_deviations_in_runs
 from gudgeon.assembly.journals import check_journal_positions, describe_contacts_with_assumed_approach_speed
 from gudgeon.assembly.rank import find_constraint_violation, list_redundant_equations
+from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.batch import Runs
@@ -117,7 +118,8 @@ def simulate_many(
     selected = select_method(source, method, step is not None)
     tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
     options = _BatchOptions(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
-    p, p_motion, failures = compute_parameter_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
+    projects = selected not in ("rk4", KINEMATIC)
+    p, p_motion, failures = compute_parameter_values_of_runs(compiled, starts.given, starts.is_given, projects)
     failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
     check_sample_memory(
