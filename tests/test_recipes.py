@@ -139,14 +139,19 @@ def test_the_changes_of_a_recipe_apply_to_the_files_as_they_are(name: str) -> No
             texts[named[-1]] = text
 
 
+PLACED = re.compile(r"`([\w/.]+/[\w.]+\.\w+)`: ((?:`[\w.]+`(?:, )?)+)")
 NAMED = re.compile(r"((?:`[\w.]+`(?:, | and | or )?)+) (?:of|in) `([\w/.]+/[\w.]+\.\w+)`")
 
 
 @pytest.mark.parametrize("page", [*sorted(RECIPES.glob("*.md")), ROOT / "CONTRIBUTING.md"], ids=lambda page: page.stem)
 def test_names_that_pages_find_in_a_file_are_there(page: Path) -> None:
-    """As in "`locate_zero` of `engine/watch/zeros.h`", but in files that a recipe creates."""
+    """As in "`locate_zero` of `engine/watch/zeros.h`" or "`engine/watch/zeros.h`: `locate_zero`".
+
+    Files that a recipe creates are left out.
+    """
     text = page.read_text(encoding="utf-8")
-    found = [(name, file) for names, file in NAMED.findall(text) for name in re.findall(r"`([\w.]+)`", names)]
+    pairs = [*NAMED.findall(text), *((names, file) for file, names in PLACED.findall(text))]
+    found = [(name, file) for names, file in pairs for name in re.findall(r"`([\w.]+)`", names)]
     found = [(name, file) for name, file in found if f"Create `{file}`" not in text]
     texts = {file: (ROOT / file).read_text(encoding="utf-8") for _, file in found}
     assert [(name, file) for name, file in found if name.rpartition(".")[2] not in texts[file]] == []

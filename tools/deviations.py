@@ -19,7 +19,7 @@ from gudgeon.reynolds import Deviation, deviation
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 RATIOS = (0.25, 1.0, 2.0)
 COLUMNS = (0.1, 0.3, 0.5, 0.7, 0.9)  # ε of the table
-HEAD = "| film law, L/D | " + " | ".join(f"ε = {x:g}" for x in COLUMNS) + " |"
+HEAD = "| film law, $L/(2R_j)$ | " + " | ".join(f"ε = {x:g}" for x in COLUMNS) + " |"
 
 
 def compare_laws() -> Iterator[list[Deviation]]:

@@ -1,4 +1,4 @@
-"""Events, corners and pulses that lie between the looks of a step: against closed forms and a dense scan."""
+"""Events, switching points and transients between the samples of a step: against closed forms and a dense scan."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The report of a run beside closed forms of a bouncing journal, quadratures of its own, and its own file."""
+"""The report of a run against closed forms of a bouncing journal, independent quadratures, and its file."""
 
 from __future__ import annotations
 

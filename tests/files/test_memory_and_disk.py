@@ -1,4 +1,4 @@
-"""More than there is memory or disk for is told before anything is begun."""
+"""Requests that exceed the memory or the disk are reported before any work begins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""No letter of a document stands for two quantities: a twin whose parameters have names of nobody says which it has."""
+"""No symbol of a document stands for two quantities: compared with a copy whose parameters have unique names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers far from 1 that SymPy would make of a power of a product: forces, their slopes and bounds against mpmath."""
+"""Powers of products that SymPy must not evaluate: forces, derivatives and bounds against mpmath."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The story of a reduction against counts of its own: ranks and null spaces of Φ_q, graphs, numeric patterns."""
+"""The log of a reduction against independent counts: ranks and null spaces of Φ_q, graphs, numeric patterns."""
 
 from __future__ import annotations
 

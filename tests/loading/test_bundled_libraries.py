@@ -1,4 +1,4 @@
-"""Libraries that a wheel carries: what runs where no compiler is."""
+"""Libraries bundled in a wheel: what runs without a compiler."""
 
 from __future__ import annotations
 
