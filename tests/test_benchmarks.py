@@ -250,7 +250,6 @@ def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
         "faster",
         "bars",
         "setups",
-        "first_setups",
         "evaluations",
         *race_record.MEASURES,
     }

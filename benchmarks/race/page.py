@@ -265,16 +265,6 @@ def setups(record: Record) -> list[str]:
     return grid(["problem", "solvers", "set-up, s"], rows, words=2) + note * any(time == "–" for *_, time in rows)
 
 
-def first_setups(record: Record) -> list[str]:
-    """Return the table of the set-up times of gudgeon's default method and of the fastest other solver of a problem."""
-    rows = []
-    for work in (w for w in MEASURES if record.entries(w)):
-        own, peer = find_default(record, work), find_fastest(record, work, MEASURES[work][0])
-        times = [number(record.setup(work, name) if name else math.nan) for name in (own, peer)]
-        rows.append([f"`{work}`", own, peer or "none", *times])
-    return grid(["problem", "gudgeon", "other solver", "set-up of gudgeon, s", "set-up of the other, s"], rows, words=3)
-
-
 def machine_facts(record: Record) -> list[str]:
     """Return the facts of the machines of all runs; runs with the same value of a fact have one line together."""
     runs_of: dict[tuple[str, str], list[str]] = {}
@@ -310,7 +300,6 @@ def blocks(record: Record) -> dict[str, str]:
         "faster": faster(record),
         "bars": bars(record),
         "setups": setups(record),
-        "first_setups": first_setups(record),
     }
     found["evaluations"] = evaluations(record)
     for work, measures in MEASURES.items():
