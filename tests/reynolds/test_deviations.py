@@ -98,7 +98,9 @@ def test_another_law_at_the_same_states() -> None:
 
 
 def test_the_page_prints_what_it_shows(capsys: pytest.CaptureFixture[str]) -> None:
-    (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
-    (shown,) = re.findall(r"^```text\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
-    exec(compile(code, "reynolds.md", "exec"), {})
-    assert capsys.readouterr().out == shown
+    codes = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    outputs = re.findall(r"^```text\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    assert codes
+    for code, shown in zip(codes, outputs, strict=True):
+        exec(compile(code, "reynolds.md", "exec"), {})
+        assert capsys.readouterr().out == shown
