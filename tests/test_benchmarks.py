@@ -179,7 +179,7 @@ def test_a_newer_run_replaces_its_problems_and_keeps_the_rest() -> None:
     both = old.merged(newer)
     assert both.runs() == [1, 2] and both.runs("links") == [2] and len(both.rows) == len(old.rows)
     assert both.facts == {k: v for k, v in {**old.facts, **newer.facts}.items() if k != "links, note"}
-    assert race_page.facts(both, "links") == ["- not installed: heyoka", "- measured in run 2"]
+    assert race_page.facts(both, "links") == ["- not installed: heyoka", "- measurement 2"]
     again = both.merged(race_record.Record({"run 3, machine": "third"}, (replace(row, run=3),)))
     assert [name for name in again.facts if name.startswith("run")] == ["run 2, machine", "run 3, machine"]
 

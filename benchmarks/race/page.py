@@ -275,7 +275,7 @@ def machine_facts(record: Record) -> list[str]:
     if len(record.runs()) <= 1:
         return [f"- {fact}: {value}" for fact, value in runs_of]
     return [
-        f"- {'run' if len(runs) == 1 else 'runs'} {', '.join(runs)}, {fact}: {value}"
+        f"- {'measurement' if len(runs) == 1 else 'measurements'} {', '.join(runs)}, {fact}: {value}"
         for (fact, value), runs in runs_of.items()
     ]
 
@@ -289,7 +289,7 @@ def facts(record: Record, work: str = "") -> list[str]:
         f"- {name.removeprefix(prefix)}: {set_powers(x)}" for name, x in record.facts.items() if name.startswith(prefix)
     ]
     runs = record.runs(work)
-    return [*found, f"- measured in run {', '.join(map(str, runs))}"] if len(record.runs()) > 1 and runs else found
+    return [*found, f"- measurement {', '.join(map(str, runs))}"] if len(record.runs()) > 1 and runs else found
 
 
 def blocks(record: Record) -> dict[str, str]:
