@@ -143,7 +143,7 @@ def work_facts(work: str) -> dict[str, str]:
         return {}
     gap, rhs = press.reference_gap(work), press.Kernel(press.work(work)).seconds_per_rhs * 1e6
     found = {
-        "right-hand side of the reference solvers in dense C": f"{rhs:.2f} µs (goal: at most 5.5 µs)",
+        "right-hand side of the other solvers in dense C": f"{rhs:.2f} µs (goal: at most 5.5 µs)",
         "difference of a second method from the reference": f"slider {gap.slider:.0e} of its stroke,"
         f" path {gap.path:.0e} of the clearance",
     }
