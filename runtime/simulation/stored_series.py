@@ -154,6 +154,12 @@ def build_samples(runs: Runs, i: int, field_names: frozenset[str]) -> EvaluatedS
     return result
 
 
+def find_evaluation_times_of_run(runs: Runs, i: int) -> Array:
+    """Return the times (k,) in s at which the samples of run i of a batch are evaluated, as `find_evaluation_times`."""
+    n, (t, y, *_) = runs.compiled.n, runs.get_samples(i)
+    return find_evaluation_times(runs.compiled, t, y[:, :n], y[:, n : 2 * n], runs.arrays["p"][i])
+
+
 def _get_accelerations(runs: Runs, i: int) -> Array | None:
     """Return q̈ (k, n) at the samples of run i if its method stored it; else None.
 
@@ -163,11 +169,11 @@ def _get_accelerations(runs: Runs, i: int) -> Array | None:
     if a is None or not compiled.may_drive_acceleration_jump:
         return a
     t, y, discrete_states, _ = runs.get_samples(i)
-    q, v, p = y[:, :n], y[:, n : 2 * n], runs.arrays["p"][i]
-    times = find_evaluation_times(compiled, t, q, v, p)
+    times = find_evaluation_times_of_run(runs, i)
     if times[-1] == t[-1]:
         return a
-    last = compiled.evaluate(times[-1:], q[-1:], v[-1:], discrete_states[-1:], p, field_names=frozenset(["a"]))
+    q, v, p = y[-1:, :n], y[-1:, n : 2 * n], runs.arrays["p"][i]
+    last = compiled.evaluate(times[-1:], q, v, discrete_states[-1:], p, field_names=frozenset(["a"]))
     return np.append(a[:-1], last.a, axis=0)
 
 
@@ -192,13 +198,7 @@ def _concatenate_samples(runs: Runs, indices: Sequence[int], field_names: frozen
         result.accelerations, field_names = np.concatenate(accelerations), field_names - {"a"}
     if field_names:
         if compiled.may_drive_acceleration_jump:
-            samples_and_parameters = zip(samples_of_runs, parameter_values, strict=True)
-            t = np.concatenate(
-                [
-                    find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p)
-                    for (t, y, *_), p in samples_and_parameters
-                ]
-            )
+            t = np.concatenate([find_evaluation_times_of_run(runs, i) for i in indices])
         result.evaluation = evaluate_runs(
             compiled, run_lengths, t, q, v, discrete_states, parameter_values, field_names
         )

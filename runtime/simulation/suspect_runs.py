@@ -14,7 +14,6 @@ import numpy as np
 
 from gudgeon.assembly.rank import list_redundant_equations
 from gudgeon.integrators.batch import Runs
-from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.period_jumps import list_periodic_drives
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.simulation.audit import (
@@ -24,6 +23,7 @@ from gudgeon.simulation.audit import (
     list_given_coordinates,
     list_inapplicable_checks,
 )
+from gudgeon.simulation.stored_series import find_evaluation_times_of_run
 
 
 class SuspectRuns:
@@ -67,7 +67,4 @@ class SuspectRuns:
 
     def _ends_at_jump(self, i: int) -> bool:
         """Return whether an acceleration jumps at the last sample of run i; Python must then store its left limit."""
-        n, compiled = self._runs.compiled.n, self._runs.compiled
-        t, y, *_ = self._runs.get_samples(i)
-        times = find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], self._runs.arrays["p"][i])
-        return bool(times[-1] < t[-1])
+        return bool(find_evaluation_times_of_run(self._runs, i)[-1] < self._runs.get_samples(i)[0][-1])

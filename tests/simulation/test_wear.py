@@ -1,4 +1,4 @@
-"""Wear of a joint with play beside closed forms: steady sliding, a pendulum's bearing, the work of friction."""
+"""Wear of a joint with play against closed forms: steady sliding, a pendulum's bearing, the work of friction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lyapunov exponents, kinds of motion and mean horizons as measures of a study, beside closed forms."""
+"""Lyapunov exponents, kinds of motion and mean horizons as measures of a study against closed forms."""
 
 from __future__ import annotations
 
