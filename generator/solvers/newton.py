@@ -249,10 +249,11 @@ class Newton:
             ],
         )
         entries = self._make_matrix_entries(builder)
-        pattern = [
-            {j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
-            for i in range(self.nodes)
-        ]
+        pattern: list[set[int]] = [set() for _ in range(self.nodes)]
+        for i, j in entries:
+            if i != j:
+                pattern[i].add(j)
+                pattern[j].add(i)
         self.elimination = choose_elimination(
             tuple(map(frozenset, pattern)),
             self.n,

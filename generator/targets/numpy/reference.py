@@ -30,6 +30,7 @@ MIN_SPEED_EXPONENT, MAX_SPEED_EXPONENT = -4.0, 1.0  # powers of ten by which vel
 RELATIVE_PERTURBATION = 1e-12  # of q, to find ill-conditioned states near singular positions
 SENSITIVITY_TOL = 1e-8  # change of a value by the perturbation, relative to the largest value, that excludes a state
 N_GAUSS_NEWTON_STEPS = 6  # to close the linkage
+DAMPING = 1e-13  # of these steps (Levenberg–Marquardt), relative to the trace of Φ_q Φ_qᵀ: rows may be dependent
 
 
 def compute_reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
@@ -223,7 +224,8 @@ def _sample_position(
         phi, phi_q = numpy_model.phi(t, q, p), numpy_model.phi_q(t, q, p)
         if not (np.isfinite(phi).all() and np.isfinite(phi_q).all()):
             break
-        q = q - np.linalg.lstsq(phi_q, phi, rcond=1e-6)[0]
+        gram = phi_q @ phi_q.T
+        q = q - phi_q.T @ np.linalg.solve(gram + DAMPING * np.trace(gram) * np.eye(len(phi)), phi)
     q = np.clip(q, -1e3, 1e3) + displacement_scale * rng.normal(0.0, 1.0, numpy_model.n)
     return np.array([float(f"{x:.7g}") for x in q])
 
