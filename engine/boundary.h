@@ -148,6 +148,17 @@ enum ClearanceColumn {
     N_CLEARANCE_COLUMNS
 };
 
+/* Kinds of force on bodies, by the result that contains the force. */
+enum BodyForceKind {
+    FORCE_REACTION,   /* reactions */
+    FORCE_CLEARANCE,  /* clearance: in a joint with play */
+    FORCE_FRICTION,   /* friction: along a direction that is fixed in the first body */
+    FORCE_SPRING,     /* series: along the line from one point to another */
+    FORCE_COMPONENTS, /* series: two columns, x and y */
+    FORCE_DRIVE,      /* torques: the moment of a drive */
+    FORCE_MOMENT      /* series: a moment */
+};
+
 /* Columns of a friction element in the results of gudgeon_evaluate: force in N, slip speed in m/s. */
 enum FrictionColumn { FRICTION_force, FRICTION_slip, N_FRICTION_COLUMNS };
 

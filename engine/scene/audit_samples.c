@@ -210,23 +210,47 @@ typedef struct {
         drift[N_DRIFT];
 } SampleResults;
 
+/* Columns of the largest contact forces of a joint with play, N: at samples outside contacts, at all, touching. */
+enum { CONTACT_OPEN, CONTACT_ALL, CONTACT_TOUCHING, N_CONTACT_COLUMNS };
+
+/*
+ * Raise the largest contact forces (N_CLEARANCES, N_CONTACT_COLUMNS) of all joints with play to those of a sample.
+ * Joints that are open by their discrete state, and whose penetration is zero within MIN_TOUCHING_PENETRATION, touch.
+ */
+static void update_contact_forces(const double *discrete, const double *clearance, double *contact_forces)
+{
+    for (int k = 0; k < N_CLEARANCES; k++, clearance += N_CLEARANCE_COLUMNS, contact_forces += N_CONTACT_COLUMNS) {
+        const double force = hypot(clearance[CLEARANCE_Fx], clearance[CLEARANCE_Fy]);
+        const int touches = fabs(clearance[CLEARANCE_delta]) <= MIN_TOUCHING_PENETRATION;
+        contact_forces[CONTACT_ALL] = max_of(contact_forces[CONTACT_ALL], force);
+        if (isnan(discrete[k])) {
+            const int column = touches ? CONTACT_TOUCHING : CONTACT_OPEN;
+            contact_forces[column] = max_of(contact_forces[column], force);
+        }
+    }
+}
+
 /*
  * Return whether all n samples y (rows of N_S) of a run can be evaluated at the times t, and pass the audit; 0: not
- * known, or they do not. energies (n, N_ENERGY, output) are for the energy balance, which the caller checks. The other
- * arguments are those of the audit; if `limits` is NULL, the samples are evaluated only.
+ * known, or they do not. energies (n, N_ENERGY, output) are for the energy balance, and contact_forces (N_CLEARANCES,
+ * N_CONTACT_COLUMNS; zeros at first) for the checks of contacts: the caller checks both. The other arguments are those
+ * of the audit; if `limits` is NULL, the samples are evaluated only.
  * audited: result of the audit of steps (N_CHECKS).
  * start (2 N_Q): state with which the run began; NULL: the first sample is not compared with it.
- * drawn: n_drawn indices of the samples whose errors of gudgeon_audit_samples() must not exceed `limits` (4).
- * With a contact force at any sample, the result is 0.
+ * drawn: n_drawn indices, increasing, of the samples whose errors of gudgeon_audit_samples() must not exceed the first
+ * four `limits`; the last one is that of the equations of single bodies there, which need `bodies` (NULL: not checked).
  */
 int gudgeon_check_samples(long n, const double *t, const double *y, const double *discrete, const double *parameters,
-    double *energies, const double *audited, const double *limits, double size, const double *start, long n_drawn,
-    const long *drawn)
+    double *energies, double *contact_forces, const double *audited, const double *limits, double size,
+    const double *start, long n_drawn, const long *drawn, const BodyForceTable *bodies)
 {
+    double m[N_Q];
+    BodyResiduals residuals = {0};
+    mass_matrix((const Parameters *)parameters, m);
     for (int k = 0; limits && k < N_CHECKS; k++)
         if (!(audited[k] <= AUDIT_FAILS))
             return 0;
-    for (long i = 0; i < n; i++) {
+    for (long i = 0, j = 0; i < n; i++) {
         SampleResults x = {0};
         double *energy = energies + N_ENERGY * i;
         const double *state = y + i * N_S;
@@ -236,13 +260,14 @@ int gudgeon_check_samples(long n, const double *t, const double *y, const double
             return 0;
         if (!limits)
             continue;
-        for (int k = 0; k < N_CLEARANCES; k++) {
-            const double *column = x.clearance + N_CLEARANCE_COLUMNS * k;
-            if (column[CLEARANCE_Fx] != 0.0 || column[CLEARANCE_Fy] != 0.0)
-                return 0;
-        }
         if (!is_sum_finite((const double *)&x, sizeof x / sizeof(double)) || !is_sum_finite(energy, N_ENERGY))
             return 0;
+        update_contact_forces(discrete + i * N_DISCRETE, x.clearance, contact_forces);
+        if (bodies && j < n_drawn && drawn[j] == i) {
+            const ReportedForces reported = {x.a, x.reactions, x.torques, x.clearance, x.series, x.friction};
+            add_body_residuals(bodies, state, parameters, m, &reported, &residuals);
+            j++;
+        }
     }
     if (limits && start && !starts_from_initial_state(y, start, (const Parameters *)parameters, size))
         return 0;
@@ -255,5 +280,8 @@ int gudgeon_check_samples(long n, const double *t, const double *y, const double
             if (!(errors[k] <= limits[k]))
                 return 0;
     }
+    for (int body = 0; limits && body < N_BODIES; body++)
+        if (!(compute_relative_residual(&residuals, body) <= limits[4]))
+            return 0;
     return 1;
 }

@@ -46,9 +46,40 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     double *series, double *friction, double *energy, double *power, double *drift, long *failed_sample);
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *relative_errors);
+
+/* A point of a body, or of the ground (-1). x, y: parameters with its components in the frame, times the signs; -1: 0. */
+typedef struct {
+    long body, x, y;
+    double sign_x, sign_y;
+} BodyPoint;
+
+/*
+ * A force on body `second` at point `at`, with the opposite force on body `first`; -1: ground. column: of the result
+ * that contains it. from: the other end of a spring. direction: parameters with the direction of a friction force in
+ * the frame of body `first`; -1: the number in `component`.
+ */
+typedef struct {
+    int kind;                             /* BodyForceKind */
+    long first, second, column;
+    BodyPoint at, from;
+    long direction[2];
+    double component[2];
+} BodyForce;
+
+/* All forces of a scene, and of each body whether all forces and moments on it are known. */
+typedef struct {
+    long n_forces;
+    const BodyForce *forces;
+    const unsigned char *has_known_forces, *has_known_moments;
+    long gravity[2];                      /* parameters with its components; -1: 0 */
+} BodyForceTable;
+
+void gudgeon_body_residuals(long n, const BodyForceTable *table, const double *q, const double *parameters,
+    const double *a, const double *reactions, const double *torques, const double *clearance, const double *series,
+    const double *friction, double *relative_residuals);
 int gudgeon_check_samples(long n, const double *t, const double *y, const double *discrete, const double *parameters,
-    double *energies, const double *audited, const double *limits, double size, const double *start, long n_drawn,
-    const long *drawn);
+    double *energies, double *contact_forces, const double *audited, const double *limits, double size,
+    const double *start, long n_drawn, const long *drawn, const BodyForceTable *bodies);
 int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, const double *q, const double *v,
     const double *discrete, const double *parameters, long n_parameters, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,

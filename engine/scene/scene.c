@@ -6,6 +6,7 @@
 #include "calls.h"
 #if !PART || PART == 1
 #include "calls.c"
+#include "body_balance.c"
 #include "audit_samples.c"
 #if N_ROWS && !N_FRICTIONS && !N_RIGID
 #include "singular.c"

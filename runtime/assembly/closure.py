@@ -23,7 +23,8 @@ MAX_GUESS_ERROR_RAD = 0.5
 MIN_MIRRORED_ERROR = 0.1  # of these limits: if a guess has a larger error, starts mirrored in the guess are tried
 # random starts; coordinates above which a quarter of them is tried; number of searches if all results are far
 N_RANDOM_STARTS, MANY_COORDINATES, N_SEARCHES = 24, 60, 5
-MAX_RELATIVE_DISTANCE = 1e3  # of the size that drives and start require: a body further from the origin is lost
+# of the size that drives and start require, and at least the number of bodies: a body further from the origin is lost
+MAX_RELATIVE_DISTANCE = 1e3
 CLOSURE_TOL = 1e-10  # a residual above this fraction of the mechanism's size is not an assembly
 ROUNDING_TOL = 1e-14  # the same, relative to the largest distance from the origin
 # norm below which a Jacobian is reused in the next steps, as long as the norm falls to a tenth (closing.c)
@@ -291,9 +292,10 @@ class AssemblyProblem:
     def has_bodies_in_range(self, q: Array) -> bool:
         """Return whether no coordinate x, y at q exceeds MAX_RELATIVE_DISTANCE times `max_distance`.
 
-        Far away, rounding would satisfy every equation.
+        Far away, rounding would satisfy every equation. A chain may be as long as all its bodies together.
         """
-        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < MAX_RELATIVE_DISTANCE * self.max_distance)
+        limit = max(MAX_RELATIVE_DISTANCE, float(len(self.linkage.source.bodies)))
+        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < limit * self.max_distance)
 
     def _compute_relative_guess_error(self, q: Array) -> float:
         """Return the largest error of guessed angles, positions and points at q, relative to the limits for more

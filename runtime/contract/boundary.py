@@ -206,6 +206,15 @@ CLEARANCE_delta: Final = 9
 N_CLEARANCE_COLUMNS: Final = 10
 CLEARANCE_COLUMN_NAMES = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt", "delta")
 
+# enum BodyForceKind
+FORCE_REACTION: Final = 0
+FORCE_CLEARANCE: Final = 1
+FORCE_FRICTION: Final = 2
+FORCE_SPRING: Final = 3
+FORCE_COMPONENTS: Final = 4
+FORCE_DRIVE: Final = 5
+FORCE_MOMENT: Final = 6
+
 # enum FrictionColumn
 FRICTION_force: Final = 0
 FRICTION_slip: Final = 1

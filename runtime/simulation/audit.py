@@ -7,7 +7,9 @@ rate of change of energy, sampled forces with the list of contacts, and works wi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,12 +82,8 @@ class SampleAudit:
         self.compiled, self.problem, self.trajectory, self.source = compiled, problem, trajectory, compiled.source
         self.is_on = bool(problem.audit and N)
         self.has_no_forces = bool(self.source.massless_bodies or self.source.indeterminate)
-        self.joints = [
-            k
-            for k, joint in enumerate(self.source.clearances)
-            if not joint.film and joint.name not in self.source.rigid_joints
-        ]
-        self.contact_forces = [_ContactForces() for _ in self.joints]
+        self.joints = list_audited_joints(self.source)
+        self.contact_forces = [ContactForces() for _ in self.joints]
         self.samples = select_audit_samples_of_run(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
         self.random_evaluations: list[Evaluation] = []  # the evaluation of `samples`
         self.largest_energy = 0.0  # J
@@ -148,7 +146,8 @@ class SampleAudit:
             return ()
         problem, trajectory, source = self.problem, self.trajectory, self.source
         size = max(compute_size(source, problem.p), 1e-300)
-        findings = [*_check_first_sample(problem, trajectory, size), *self._check_contact_forces()]
+        findings = list(_check_first_sample(problem, trajectory, size))
+        findings += check_contact_forces(source, trajectory, self.joints, self.contact_forces)
         if not self.has_no_forces:
             findings += check_energy_balance(self.compiled, problem, trajectory, self.largest_energy, balance, size)
             t = self.first_undefined
@@ -160,27 +159,6 @@ class SampleAudit:
         left_out = list_inapplicable_checks(source, problem.method)
         findings += [finding for finding in self._check_random_samples(size) if finding.check not in left_out]
         return tuple(findings)
-
-    def _check_contact_forces(self) -> Iterator[Finding]:
-        """Yield findings on the contact forces of joints without a film and without rigid contact.
-
-        A finding has a value over its tolerance. At samples outside contacts the force must be zero. The peak force of
-        a joint must not exceed the largest peak of its recorded contacts. The peak is not checked if the run begins or
-        ends within a contact.
-        """
-        trajectory = self.trajectory
-        for k, forces in zip(self.joints, self.contact_forces, strict=True):
-            name, peak = self.source.clearances[k].name, float(trajectory.peaks[k, PEAK_F])
-            largest = max(peak, forces.max_all)
-            yield Finding("sample", forces.max_open / max(OPEN_FORCE_TOL * largest, 1e-300), forces.t_open, name)
-            begins_open = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
-            if not (peak > forces.max_touching and begins_open):
-                continue
-            contacts = trajectory.impacts[trajectory.impacts["joint"] == k]
-            if np.isfinite(contacts["t_off"]).all():
-                listed = float(contacts["F_peak"].max(initial=0.0))
-                over = (largest - listed) / (PEAK_EXCESS_TOL * max(listed, 1e-300))
-                yield Finding("peak", max(over, 0.0), float(trajectory.peaks[k, PEAK_t]), name)
 
     def _check_random_samples(self, size: float) -> tuple[Finding, ...]:
         """Return findings on power, drive torques and constraint equations at pseudo-random samples.
@@ -340,17 +318,16 @@ def _find_first_non_finite_sample(evaluation: Evaluation, has_rigid_contacts: bo
     return None if is_finite.all() else int(is_finite.argmin())
 
 
-class _ContactForces:
-    """Hold the largest contact forces (N) of a joint at the samples so far; NaN once one of them is NaN.
+@dataclass
+class ContactForces:
+    """Hold the largest contact forces (N) of a joint at the samples so far; NaN once one of them is NaN."""
 
-    `max_open`: at samples outside contacts, where the force must be zero; `t_open`: time (s) of the first such
-    maximum. `max_touching`: at samples outside contacts whose penetration is zero within MIN_TOUCHING_PENETRATION.
-    `max_all`: at all samples.
-    """
+    COLUMNS: ClassVar = ("max_open", "max_all", "max_touching")  # of the array that C fills
 
-    def __init__(self) -> None:
-        self.max_open = self.max_all = self.max_touching = -math.inf
-        self.t_open = math.nan
+    max_open: float = -math.inf  # at samples outside contacts, where the force must be zero
+    max_all: float = -math.inf
+    max_touching: float = -math.inf  # outside contacts with a penetration of zero within MIN_TOUCHING_PENETRATION
+    t_open: float = math.nan  # s, time of the first sample with `max_open`
 
     def update_maxima(self, max_open: float, t_open: float, max_all: float, max_touching: float) -> None:
         """Update the maxima by those of the next samples, which have the same names as the attributes."""
@@ -358,6 +335,34 @@ class _ContactForces:
             self.max_open, self.t_open = max_open, t_open
         self.max_all = max_all if _exceeds(max_all, self.max_all) else self.max_all
         self.max_touching = max_touching if _exceeds(max_touching, self.max_touching) else self.max_touching
+
+
+def list_audited_joints(source: KernelSource) -> list[int]:
+    """Return the indices of the joints with play whose contact forces are checked: without a film or rigid contact."""
+    return [k for k, joint in enumerate(source.clearances) if not joint.film and joint.name not in source.rigid_joints]
+
+
+def check_contact_forces(
+    source: KernelSource, trajectory: Trajectory, joints: Sequence[int], contact_forces: Sequence[ContactForces]
+) -> Iterator[Finding]:
+    """Yield findings on the largest contact forces at samples of `joints`, from `list_audited_joints`.
+
+    A finding has a value over its tolerance. At samples outside contacts the force must be zero. The peak force of a
+    joint must not exceed the largest peak of its recorded contacts. The peak is not checked if the run begins or ends
+    within a contact.
+    """
+    for k, forces in zip(joints, contact_forces, strict=True):
+        name, peak = source.clearances[k].name, float(trajectory.peaks[k, PEAK_F])
+        largest = max(peak, forces.max_all)
+        yield Finding("sample", forces.max_open / max(OPEN_FORCE_TOL * largest, 1e-300), forces.t_open, name)
+        begins_open = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
+        if not (peak > forces.max_touching and begins_open):
+            continue
+        contacts = trajectory.impacts[trajectory.impacts["joint"] == k]
+        if np.isfinite(contacts["t_off"]).all():
+            listed = float(contacts["F_peak"].max(initial=0.0))
+            over = (largest - listed) / (PEAK_EXCESS_TOL * max(listed, 1e-300))
+            yield Finding("peak", max(over, 0.0), float(trajectory.peaks[k, PEAK_t]), name)
 
 
 def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:

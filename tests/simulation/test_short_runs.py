@@ -17,6 +17,8 @@ from gudgeon.errors import AuditError
 from gudgeon.integrators.single_run import MAX_UNUSED_RUNS
 from gudgeon.model.deferred_fields import find_deferred_function
 from gudgeon.results.results import Result
+from gudgeon.simulation.audit import BODY_LIMIT, MIN_CALLS_OF_LONG_RUN, has_failed_finding
+from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 from gudgeon.simulation.simulation import Simulation
 
 SCENES = (
@@ -135,8 +137,8 @@ def test_c_finds_known_faults_in_samples(fault: str, monkeypatch: pytest.MonkeyP
         return np.frombuffer(compiled.ffi.buffer(compiled.ffi.cast("char *", pointer), size)).reshape(shape)
 
     def change_and_check(n_samples: int, *arguments: Any) -> int:
-        y, audited = view(arguments[1], n_samples, 2 * compiled.n + N_WORK), view(arguments[5], N_CHECKS)
-        arrays = y, audited, view(arguments[8], 2 * compiled.n)
+        y, audited = view(arguments[1], n_samples, 2 * compiled.n + N_WORK), view(arguments[6], N_CHECKS)
+        arrays = y, audited, view(arguments[9], 2 * compiled.n)
         copies = [array.copy() for array in arrays]
         FAULTS[fault](y, compiled.n, *arrays[1:])
         decisions.append(check(n_samples, *arguments))
@@ -150,14 +152,51 @@ def test_c_finds_known_faults_in_samples(fault: str, monkeypatch: pytest.MonkeyP
     assert not run.diagnostics.notes  # the samples are right: the findings say so
 
 
-def test_c_does_not_decide_on_samples_in_contact() -> None:
-    """Forces in joints have checks of their own."""
+@pytest.mark.parametrize(("scene", "t_end"), [("dry", 0.1), ("lubricated", 0.5)])
+def test_long_runs_with_forces_in_joints_are_deferred(scene: str, t_end: float) -> None:
+    """Their findings on contact forces and on the equations of single bodies are those of a run checked at once."""
+    simulation = gudgeon.load("nine_bar_press", scene)
+    lazy = simulation.simulate(t_end, output=200)
+    at_once = simulation.simulate(t_end, output=200, progress=lambda *_: None)
+    assert lazy["A.F"].max() > 0.0 and is_deferred(lazy)
+    assert lazy.diagnostics.right_hand_sides > MIN_CALLS_OF_LONG_RUN
+    assert same(lazy, at_once) and {"body", "power"} <= {one.check for one in lazy.diagnostics.audit}
+
+
+def test_c_finds_a_force_without_a_contact(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The discrete state of a sample in contact says that the joint is open."""
     simulation = gudgeon.load("nine_bar_press", "dry")
-    fine = simulation.simulate(0.02, output=2000)
-    t_contact = float(fine.t[fine["A.F"].argmax()])
-    assert fine["A.F"].max() > 0.0
-    assert not is_deferred(simulation.simulate(output=[t_contact]))
-    assert is_deferred(simulation.simulate(1e-4, output=1))
+    compiled, check = simulation.compiled, simulation.compiled.lib.gudgeon_check_samples
+
+    def open_joints_and_check(n_samples: int, *arguments: Any) -> int:
+        size = 8 * n_samples * compiled.n_discrete_states
+        discrete = np.frombuffer(compiled.ffi.buffer(compiled.ffi.cast("char *", arguments[2]), size))
+        stored = discrete.copy()
+        discrete[...] = np.nan
+        result: int = check(n_samples, *arguments)
+        discrete[...] = stored
+        return result
+
+    assert is_deferred(simulation.simulate(0.02, output=200))
+    monkeypatch.setitem(vars(compiled.lib), "gudgeon_check_samples", open_joints_and_check)
+    run = simulation.simulate(0.02, output=200)
+    assert not is_deferred(run)
+    assert not has_failed_finding(run.diagnostics.audit)  # the samples are right: the findings say so
+
+
+@pytest.mark.parametrize("part", ["a", "reactions", "clearance"])
+def test_c_finds_an_error_in_the_equations_of_single_bodies(part: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A limit that no run fulfils is exceeded; and the residuals of C are those of the run's evaluation."""
+    monkeypatch.setitem(BODY_LIMIT, "body", 1e-25)
+    simulation = gudgeon.load("nine_bar_press", "dry")
+    with pytest.raises(AuditError, match="check body"):
+        simulation.simulate(0.1, output=200)
+    run = simulation.simulate(0.1, output=200, audit=False)
+    assert run.compiled is not None
+    evaluation = run.evaluation
+    changed = replace(evaluation, **{part: 1.001 * getattr(evaluation, part)})
+    residuals = [compute_newton_euler_residuals(run.compiled, run.p, run.q, x).max() for x in (evaluation, changed)]
+    assert residuals[0] < 1e-12 and residuals[1] > 1e-5
 
 
 def test_a_failed_check_of_samples_is_an_error_of_the_call(monkeypatch: pytest.MonkeyPatch) -> None:
