@@ -1,6 +1,6 @@
 /*
  * The Newton-Euler equations of single bodies, from reported forces and a table of what acts where. Of the derived
- * equations only results enter: accelerations, forces and moments. The audit of samples uses them; no state is owned.
+ * equations only results enter: accelerations, forces and moments. Used by the audit of samples; owns no state.
  */
 enum { N_BODIES = N_Q / 3 };
 #define MIN_DIVISOR 1e-300 /* smallest divisor, N, N m or m */
@@ -68,8 +68,8 @@ static void read_wrench(
 }
 
 /*
- * Subtract a force from the sums of a body, sign: 1 on the second body, -1 on the first. sums (3) of the body: force, N,
- * and moment about its centre of mass, N m. Forces of joints with play have no moment here.
+ * Subtract a force from the sums (3) of a body: force, N, and moment about its centre of mass, N m. sign: 1 on the
+ * second body, -1 on the first. Forces of joints with play have no moment here.
  */
 static void subtract_wrench(const BodyForce *force, double sign, long body, const double *q, const double *p,
     const double *wrench, const BodyForceTable *table, BodyResiduals *residuals, double *sums)

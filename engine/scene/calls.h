@@ -47,7 +47,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *relative_errors);
 
-/* A point of a body, or of the ground (-1). x, y: parameters with its components in the frame, times the signs; -1: 0. */
+/* A point of a body, or of the ground (-1). x, y: parameters with its components, times the signs; -1: 0. */
 typedef struct {
     long body, x, y;
     double sign_x, sign_y;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -15,6 +15,7 @@ from gudgeon.generator.ir.kernels import KernelBuilder, remove_unused_locals
 from gudgeon.generator.ir.series import LinearSystem, Series, derive_taylor_series
 from gudgeon.generator.ir.series_rules import NoTaylorSeries
 from gudgeon.generator.ir.signatures import RHS
+from gudgeon.generator.ir.statements import Instruction, Statement
 from gudgeon.generator.ir.values import Threshold
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, has_singular_fallback
@@ -47,6 +48,13 @@ SERIES_STEP, SERIES_CLOSURE, SERIES_ORDER, SERIES_OPERATION = 450.0, 200.0, 7.0,
 LANES_DOP853_STEP, LANES_DOP853_OPERATION = 7700.0, 4.3
 LANES_SERIES_STEP, LANES_SERIES_CLOSURE = 2900.0, 1500.0
 SERIES_OPERATIONS, SERIES_PRODUCTS = 1.6, 0.32
+# Functions of the state whose slope far away falls as a power of the distance, so that a series shows them there. Those
+# left out, such as tanh and exp, may be constant to rounding where a step begins and act in its middle.
+FUNCTIONS_SEEN_FROM_AFAR = (
+    *(sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan, sp.atan2),
+    *(sp.asinh, sp.acosh, sp.atanh, sp.log),
+)
+MAX_POWER = 4  # of the state: higher powers may vanish in rounding, and all orders of the series with them
 MAX_BUNDLED_OPERATIONS = 200  # of the right-hand side: larger series are no part of the scene's library
 MAX_RHS_OPERATIONS = 1500  # of larger right-hand sides the series takes too long to compile
 
@@ -132,8 +140,8 @@ def _predict_ratios(exponent: int, n_operations: int, n_rows: int, has_transient
 def _get_smooth_system(program: Program) -> TreeSystem:
     """Return the system in tree coordinates, or raise NoTaylorSeries with the first reason why it has no series.
 
-    Reasons are play, friction that may stick, driven loops, switching points, jumps of a drive, and that nothing is
-    integrated.
+    Reasons are play, friction that may stick, driven loops, switching points, jumps of a drive, functions of the state
+    that act within a part of a step only, and that nothing is integrated.
     """
     model, tree = program.model, program.tree
     if tree is None or not program.integrates:
@@ -148,7 +156,45 @@ def _get_smooth_system(program: Program) -> TreeSystem:
         raise NoTaylorSeries("an expression has switching points (where, abs, min, max, sign, mod, ramp)")
     if find_drives_with_jumps(model):
         raise NoTaylorSeries("the rate of a drive may jump")
+    dynamics = next(kernel for kernel in tree.unvectorized_kernels if kernel.name == DYNAMICS)
+    if name := find_hidden_function(line for section in dynamics.sections for line in section.statements):
+        raise NoTaylorSeries(f"{name} of coordinates or velocities may act within a part of a step only")
     return tree.system
+
+
+def find_hidden_function(lines: Iterable[Instruction]) -> str:
+    """Return the name of the first function of the state that a series may not show from afar; "" if there is none.
+
+    `lines`: those of the right-hand side. A function is not shown where its value and all its derivatives are below
+    rounding. FUNCTIONS_SEEN_FROM_AFAR and powers to MAX_POWER are; functions of time alone have searches of their own.
+    """
+    power_by_local: dict[str, float] = {}  # of locals that depend on the state; 1 for other values than powers
+
+    def depends_on_state(value: sp.Basic) -> bool:
+        """Return whether an expression contains a local that depends on the state."""
+        return any(symbol.name in power_by_local for symbol in value.free_symbols)
+
+    for line in lines:
+        if not isinstance(line, Statement):
+            continue
+        if isinstance(line.value, StorageLocation):
+            if line.value.base in ("q", "v"):
+                power_by_local[line.declared_local] = 1.0
+            continue
+        if not depends_on_state(line.value):
+            continue
+        power_by_local[line.declared_local] = 1.0
+        for node in sp.preorder_traversal(line.value):
+            if isinstance(node, sp.Function) and depends_on_state(node):
+                if not isinstance(node, FUNCTIONS_SEEN_FROM_AFAR):
+                    return str(node.func.__name__)
+            elif isinstance(node, sp.Pow) and depends_on_state(node):
+                power = abs(node.exp) * power_by_local.get(getattr(node.base, "name", ""), 1.0)
+                if not (power.is_number and power <= MAX_POWER):
+                    return "a high power"
+                if node == line.value:
+                    power_by_local[line.declared_local] = float(power)
+    return ""
 
 
 def _derive_series(system: TreeSystem) -> Series:

@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-SHA256 = "9172dc20d4a8abf0236659d458a3cb82abdcd6021b8e8177c0b5ef05def303e5"  # SHA-256 of these declarations
+SHA256 = "d04443a71d9aec9d7260c29720283ccf320f7542681bb689845d96e636f4c008"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,

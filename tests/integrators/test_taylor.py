@@ -349,3 +349,51 @@ def test_a_pulse_within_a_long_rest_is_not_missed(method: str, tmp_path: Path) -
     run = gudgeon.load(file).simulate(10.0, output=10, method=method, rtol=1e-9)
     assert run["L0.omega"][-1] == pytest.approx(5.0, rel=1e-8)
     assert run["L0.theta"][-1] == pytest.approx(5.0 * (10.0 - 3.3), rel=1e-8)
+
+
+WELL = """\
+format: gudgeon/1
+name: well
+bodies: {p: {mass: 1 kg, inertia: 1e-3 kg*m^2}}
+forces:
+  spring: {force: p.com, value: ["-100 N/m*p.x", 0]}
+  hidden: {force: p.com, value: ["VALUE", 0]}
+start: {set: {p.x: 0, p.y: 0}, rates: {p.vx: 10 m/s, p.vy: 1 m/s}}
+"""
+WELL_AT = "0.6 m"  # where the hidden force acts: far from the start, within a first step of the series
+HIDDEN: dict[str, tuple[str, Callable[[float], float]]] = {  # a force that vanishes in rounding at the start; potential
+    "exp": (
+        f"4 kN/m*(p.x - {WELL_AT})*exp(-((p.x - {WELL_AT})/(5 mm))**2)",
+        lambda x: 0.05 * math.exp(-(((x - 0.6) / 5e-3) ** 2)),
+    ),
+    "tanh": (
+        f"-30 N*(1 + tanh((p.x - {WELL_AT})/(4 mm)))",
+        lambda x: 30.0 * (x + 4e-3 * math.log(math.cosh((x - 0.6) / 4e-3))),
+    ),
+    "a high power": (f"-30 N*(p.x/({WELL_AT}))**81", lambda x: 30.0 * 0.6 / 82.0 * (x / 0.6) ** 82),
+}
+
+
+@pytest.mark.parametrize("name", HIDDEN)
+def test_forces_that_a_series_does_not_show_from_afar(name: str, tmp_path: Path) -> None:
+    """`auto` keeps the energy of the closed form; `taylor` names the function."""
+    value, potential = HIDDEN[name]
+    file = tmp_path / "well.yaml"
+    file.write_text(WELL.replace("VALUE", value), encoding="utf-8")
+    simulation = gudgeon.load(file)
+    run = simulation.simulate(2.0, output=400, rtol=1e-10)
+    x, v = run["p.x"], run["p.vx"]
+    energy = 0.5 * v**2 + 50.0 * x**2 + np.array([potential(one) for one in x.tolist()])
+    assert "taylor" not in run.diagnostics.method
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-6)
+    with pytest.raises(BadValueError, match=f"{name} of coordinates or velocities"):
+        simulation.simulate(0.1, method="taylor")
+
+
+def test_functions_of_time_and_algebraic_ones_of_coordinates_have_series(tmp_path: Path) -> None:
+    file = tmp_path / "well.yaml"
+    value = "1 N*exp(-t/(1 s)) + 1 N*tanh(t/(1 s)) - 1 N*atan(p.x/(1 m)) - 1 N*(p.x/(1 m))**3"
+    file.write_text(WELL.replace("VALUE", value), encoding="utf-8")
+    simulation = gudgeon.load(file)
+    series, other = (simulation.simulate(1.0, output=4, method=method, rtol=1e-12) for method in ("taylor", "dop853"))
+    np.testing.assert_allclose(series.q, other.q, atol=1e-10)
