@@ -35,6 +35,7 @@ void gudgeon_nu(double t, const double *q, const double *p, double *nu);
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_values);
 void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates);
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
+int gudgeon_close(double t, const double *parameters, double size, double radius, double *q);
 #if INTEGRATES
 int gudgeon_has_equal_start(const double *p, const double *other);
 #endif

@@ -9,6 +9,9 @@
 
 enum { MAX_CLOSING_ITERATIONS = 60 };
 
+/* Results of Newton's method that does not close the equations. */
+enum { NOT_CLOSED_BY_NEWTON = 1, DEPENDENT_EQUATIONS = 2 };
+
 /*
  * Compute the residuals of the start into workspace->residual: -Phi (with the prescribed eccentricities of journals),
  * then the differences from the prescribed coordinates, each multiplied by its row scale. Return their Euclidean norm.
@@ -115,8 +118,9 @@ static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double 
 
 /*
  * Solve the constraint equations for q by Newton's method with line search; the first step is for positions only.
- * Factorizations are reused near the solution. Equations closed to rounding leave q unchanged to the bit. Return 1 if
- * they are not closed, depend on each other, or lead to no configuration nearer to the guess; else 0.
+ * Factorizations are reused near the solution. Equations closed to rounding leave q unchanged to the bit. Return
+ * NOT_CLOSED_BY_NEWTON also if they lead to no configuration nearer to the guess, DEPENDENT_EQUATIONS also on
+ * cancellation; else 0.
  */
 OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -129,7 +133,7 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
     if (norm < rounding) /* also at a double root, where equations depend on each other */
         return 0;
     if (compute_least_squares_step(workspace))
-        return 1;
+        return DEPENDENT_EQUATIONS;
     for (int k = 0; k < N_Q; k++)
         q[k] += workspace->step[k] * workspace->column_scale[k];
     norm = compute_start_residuals(workspace, t, q, p);
@@ -137,7 +141,7 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
         if (!is_reused) {
             linearize_start_equations(workspace, t, q, p);
             if (factorize_equations(workspace, &workspace->all))
-                return 1;
+                return DEPENDENT_EQUATIONS;
         }
         compute_minimum_norm_step(workspace, &workspace->all);
         double fraction = 1.0, norm_trial = norm;
@@ -157,9 +161,9 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
         for (int k = 0; k < N_Q; k++)
             q[k] = q_trial[k];
         if (fraction == 1.0 && is_not_nearer_to_guess(workspace, q, norm_trial / norm))
-            return 1;
+            return NOT_CLOSED_BY_NEWTON;
         is_reused = norm_trial < MAX_REUSE_NORM && (norm_trial < 0.1 * norm || norm_trial < rounding);
         norm = norm_trial;
     }
-    return !are_residuals_rounding(workspace, norm);
+    return are_residuals_rounding(workspace, norm) ? 0 : NOT_CLOSED_BY_NEWTON;
 }

@@ -267,6 +267,28 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
     return compute_start(t, parameters, size, q, v, residual, &no_cancellation);
 }
 
+/*
+ * Close the configuration q (N_Q) by Newton's method, one of many starts of the search in Python. Angles follow first
+ * where equations without positions determine them. size, radius: of the mechanism and of the search, m. Return 0, 1 if
+ * it does not close (q: where the steps end), or 2 if equations depend on each other or memory is short.
+ */
+int gudgeon_close(double t, const double *parameters, double size, double radius, double *q)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    Cancellation no_cancellation = {0};
+    StartWorkspace *workspace = calloc(1, sizeof(StartWorkspace));
+    if (!workspace)
+        return DEPENDENT_EQUATIONS;
+    workspace->size = size;
+    workspace->radius = radius;
+    workspace->cancellation = &no_cancellation;
+    initialize_start_workspace(workspace, p);
+    const int status = solve_independent_angles(workspace, t, p, q) ? DEPENDENT_EQUATIONS
+        : solve_closure(workspace, t, p, q);
+    free(workspace);
+    return status;
+}
+
 #if INTEGRATES
 /*
  * Return whether the starts of two sets of parameters are equal: all parameters are, that the assembly reads. The sizes

@@ -75,7 +75,7 @@ def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> lis
     for _ in range(MAX_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
         x[problem.set_indices] = problem.set_values
-        x = problem.solve_newton(problem.determine_angles(x))
+        x = problem.close(x)
         new = (
             problem.is_closed(x)
             and problem.has_bodies_in_range(x)

@@ -15,7 +15,7 @@ from gudgeon.assembly.guess_warnings import MIN_DIFFERENCE
 from gudgeon.assembly.large import MIN_SPARSE_COORDINATES, solve_damped_least_squares, solve_minimum_norm
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position, find_angles
 from gudgeon.contract.kernel_source import PointInfo
-from gudgeon.model.compiled import Array
+from gudgeon.model.compiled import Array, CompiledModel
 
 MAX_STEPS = 60
 # rad: if a guessed angle turns further, or a point moves by MIN_DIFFERENCE, more starts are tried
@@ -49,7 +49,7 @@ class AssemblyProblem:
             file_values[len(source.start_set) :],
         )
         self.rates, self.start_eccentricity_rates = rates[: len(source.start_rates)], rates[len(source.start_rates) :]
-        self.set_values = np.array([*file_values, *held_values.values()])
+        self.set_values, self.has_held_values = np.array([*file_values, *held_values.values()]), bool(held_values)
         set_names = [*source.start_set, *held_values]
         self.set_indices = [self.coordinate_index[name] for name in set_names]
         self.names = [row.name for row in source.start_equations] + [f"set {name}" for name in set_names]
@@ -157,7 +157,7 @@ class AssemblyProblem:
                 return best, True
         results = [first_result]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
-            results += [self.solve_newton(other) for other in self._draw_random_starts(guess, spread)]
+            results += [self.close(other) for other in self._draw_random_starts(guess, spread)]
             near_results = [q for q in results if self.has_bodies_in_range(q)]
             closed_results = [self.unwind_angles(q) for q in near_results if self.is_closed(q)]
             if (
@@ -167,7 +167,7 @@ class AssemblyProblem:
                 return best, True
         if closed_results:  # none is near enough: more starts
             results = [
-                self.solve_newton(other)
+                self.close(other)
                 for seed in range(1, N_SEARCHES)
                 for other in self._draw_random_starts(guess, 1.0, seed)
             ]
@@ -193,7 +193,7 @@ class AssemblyProblem:
         mixed[self.guessed_indices] = beyond[self.guessed_indices]
         for mirrored in (mixed, beyond):
             mirrored[self.set_indices] = self.set_values
-            other = self.solve_newton(self.determine_angles(mirrored))
+            other = self.close(mirrored)
             if not self._is_assembly(other):
                 continue
             other = self.unwind_angles(other)
@@ -342,7 +342,7 @@ class AssemblyProblem:
                 q[1::3] += position_steps.imag
                 q[2::3] += mirror * deviations[2::3]
                 q[self.set_indices] = self.set_values
-                yield self.determine_angles(q)
+                yield q
 
     def unwind_angles(self, q: Array) -> Array:
         """Return q with each angle within half a turn of the guess by whole turns, unless this violates an equation."""
@@ -351,6 +351,17 @@ class AssemblyProblem:
             reduced[k] -= 2.0 * np.pi * np.round((q[k] - self.first_guess[k]) / (2.0 * np.pi))
             q = reduced if self.is_closed(reduced) else q
         return q
+
+    def close(self, q: Array) -> Array:
+        """Return the result of Newton's method from q, in which equations of angles alone are solved first.
+
+        By C if the linkage is compiled and has fewer than MIN_SPARSE_COORDINATES coordinates, except for problems with
+        held values and dependent equations. The result may not be closed: callers test it.
+        """
+        closed = None
+        if isinstance(self.linkage, CompiledModel) and not self.has_held_values and len(q) < MIN_SPARSE_COORDINATES:
+            closed = self.linkage.close_configuration(self.t, self.p, self.size, self.max_distance, q)
+        return self.solve_newton(self.determine_angles(q)) if closed is None else closed
 
     def solve_newton(self, q: Array) -> Array:
         """Return the result of Newton's method with line search from q; q itself if it is closed already.

@@ -266,6 +266,17 @@ class CompiledModel:
             return None
         return values[:n], values[n : 2 * n], values.item(2 * n)
 
+    def close_configuration(self, t: float, p: ArrayLike, size: float, radius: float, q: Array) -> Array | None:
+        """Return q (n,) after Newton's method in C, whether it is closed or not; None if equations are dependent.
+
+        Angles that equations without positions determine are set first. `size` of the mechanism and `radius` of the
+        search are in m.
+        """
+        q = as_c_array(q, "q", (self.n,), always_copy=True)
+        arguments = check_time(t), self._get_parameter_pointer(p), check_number(size, "size")
+        status = self.lib.gudgeon_close(*arguments, check_number(radius, "radius"), self._get_output_pointer(q))
+        return q if status < 2 else None
+
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None) -> Array:
         """Return (q̇, q̈, powers of drives, forces and joints with play), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
