@@ -64,6 +64,7 @@ class AssemblyProblem:
         guess_values = dict(zip(source.start_guess, guess.tolist(), strict=True))
         self.guess = {name: value for name, value in guess_values.items() if name in self.coordinate_index}
         self.guessed_indices = [self.coordinate_index[name] for name in self.guess]
+        self.is_guessed = np.isin(np.arange(len(source.coordinates)), self.guessed_indices)
         self.guessed_points = [
             (point, np.array([guess_values[f"{point.name}.x"], guess_values[f"{point.name}.y"]]))
             for point in source.points
@@ -210,9 +211,7 @@ class AssemblyProblem:
             self.compute_point_error(q, point, target) * (GUESS_WEIGHT / self.size)
             for point, target in self.guessed_points
         ]
-        is_counted = np.where(
-            np.isin(np.arange(len(q)), self.guessed_indices), 1.0, 0.0 if self.guessed_points else 1.0
-        )
+        is_counted = np.where(self.is_guessed, 1.0, 0.0 if self.guessed_points else 1.0)
         return float(np.linalg.norm(np.concatenate([(q - self.first_guess) * self.weight * is_counted, *point_errors])))
 
     def compute_point_error(self, q: Array, point: PointInfo, target: Array) -> Array:
@@ -304,7 +303,7 @@ class AssemblyProblem:
         The limits are MAX_GUESS_ERROR_RAD for angles, and MIN_DIFFERENCE of the mechanism's size for lengths (for
         positions of the distance from the origin, if larger). It is 0 without guesses.
         """
-        differences = np.where(np.isin(np.arange(len(q)), self.guessed_indices), q - self.first_guess, 0.0)
+        differences = np.where(self.is_guessed, q - self.first_guess, 0.0)
         position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(
             self.size, np.hypot(self.first_guess[0::3], self.first_guess[1::3])
         )

@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.assembly import linkage, start
+from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.start import search_start
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.model.parameters import compute_parameter_values
@@ -95,3 +97,18 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     p = compute_parameter_values(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
     with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* too large a ratio"):
         heavy.compiled.check_pivot(1, 0.0, p=p)
+
+
+@pytest.mark.parametrize("l5", [0.1, 0.15, 0.45, 0.6, 0.8])
+def test_the_nearest_configuration_of_random_starts_is_that_of_a_search_in_python(
+    l5: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Lengths at which the press begins far from its guess, or cannot close: C closes the random starts, or Python."""
+    simulation = gudgeon.load("nine_bar_press", "ideal")
+    p = compute_parameter_values(simulation.compiled, {"l5": l5})[0]
+    by_c = AssemblyProblem(simulation.compiled, p, 0.0).find_nearest_configuration()
+    monkeypatch.setattr(type(simulation.compiled), "close_configuration", lambda *_: None)
+    by_python = AssemblyProblem(simulation.compiled, p, 0.0).find_nearest_configuration()
+    assert by_c[1] == by_python[1]
+    if by_c[1]:
+        np.testing.assert_allclose(by_c[0], by_python[0], atol=1e-9)
