@@ -113,7 +113,7 @@ def test_a_large_linkage_has_no_vector_code(monkeypatch: pytest.MonkeyPatch) -> 
 def test_two_thousand_links(tmp_path: Path) -> None:
     """They are assembled at the closed form of the start, and obey Newton's and Euler's equations, body by body."""
     n, file = 2048, tmp_path / "chain.yaml"
-    file.write_text(make_chain_text(n), encoding="utf-8")
+    file.write_text(make_chain_text(n) + "gravity: [0, -9.81 m/s^2]\n", encoding="utf-8")
     simulation = gudgeon.load(file)
     run = simulation.simulate(0.02, output=4, rtol=1e-6)
     angle = 0.1 * (np.arange(n) % 7)
