@@ -93,14 +93,21 @@ static double compute_sample_time_error(double t)
 
 /*
  * Return the time near t (s) at which the rates of drives belong to the velocities of a sample at t, whose coordinates
- * are q. phi_dot (N_ROWS): Phi_q v - nu at time t. It is just after t, unless a rate of a drive jumps nearby and the
+ * and velocities are q and v. phi_dot (N_ROWS): Phi_q v - nu at time t. It is just after t, unless a rate of a drive jumps nearby and the
  * velocities agree better with the rate at another time, up to compute_sample_time_error() before or after t.
  */
-static double find_time_of_velocities(double t, const double *q, const double *phi_dot, const Parameters *p)
+static double find_time_of_velocities(
+    double t, const double *q, const double *v, const double *phi_dot, const Parameters *p)
 {
     const double max_distance = compute_sample_time_error(t);
     double nu_at_t[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)], least = INFINITY, chosen = t;
+    double gamma[2][AT_LEAST_ONE(N_ALL_ROWS)], smooth = 0.0; /* change of rates without a jump */
     velocity_rhs(t, q, p, nu_at_t);
+    for (int side = 0; side < 2; side++) {
+        acceleration_rhs(t + (side ? max_distance : -max_distance), q, v, p, gamma[side]);
+        for (int k = 0; k < N_ROWS; k++)
+            smooth += 10.0 * max_distance * fabs(gamma[side][motion_row[k]]);
+    }
     for (double distance = get_time_just_after(t) - t; distance <= max_distance; distance = max_of(2.0 * distance, 1e-15))
         for (int sign = 1; sign >= -1; sign -= 2) {
             double mismatch = 0.0, rate = 0.0;
@@ -110,7 +117,7 @@ static double find_time_of_velocities(double t, const double *q, const double *p
                 mismatch += fabs(velocity - nu[motion_row[k]]);
                 rate += fabs(velocity) + fabs(nu[motion_row[k]]);
             }
-            if (mismatch < 0.5 * least && least > MIN_RELATIVE_JUMP * rate) {
+            if (mismatch < 0.5 * least && least > MIN_RELATIVE_JUMP * rate + smooth) {
                 least = mismatch;
                 chosen = t + sign * distance;
             }
@@ -133,7 +140,7 @@ static int evaluate_rates_at_sample(
     const int status = evaluate_rates_at(*t, y, discrete, p, dy, rhs);
     if (!RATE_JUMPS || !has_drive_jump(*t, compute_sample_time_error(*t), y, y + N_Q, p))
         return status;
-    const double time = find_time_of_velocities(*t, y, rhs->phi_dot, p);
+    const double time = find_time_of_velocities(*t, y, y + N_Q, rhs->phi_dot, p);
     if (time == *t)
         return status;
     *t = time;

@@ -299,7 +299,6 @@ class Simulation(NotebookDisplay, RepeatedRuns):
                 self.compiled, initial_state, parameters, read_contours(self.source, contour)
             )
             p, p_motion = compute_cached_run_values(self.compiled, given, is_given)
-        p_motion = p if has_baumgarte_terms(self.source, settings.method) else p_motion
         t0 = 0.0 if initial_state is None else initial_state.t
         times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
         check_sample_memory(self.compiled, len(times))
@@ -321,7 +320,13 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
             remarks += describe_contacts_with_assumed_approach_speed(self.compiled, p, t0, q, v, memory)
-        observer = make_observer(self.compiled, (p_motion, given, is_given), settings.rtol, names, compared_scene)
+        observer = make_observer(
+            self.compiled,
+            (p if has_baumgarte_terms(self.source, settings.method) else p_motion, given, is_given),
+            settings.rtol,
+            names,
+            compared_scene,
+        )
         ctrl_c = DelayedCtrlC()
         problem = Problem(
             self.compiled,
@@ -335,7 +340,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             None if initial_state is None else initial_state.state,
             settings.method,
             settings.rtol,
-            p_motion,
+            None if has_baumgarte_terms(self.source, settings.method) else p_motion,
             settings.stop,
             remarks,
             from_start,
