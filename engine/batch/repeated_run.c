@@ -121,7 +121,7 @@ static int has_unconfirmed_sample(const RepeatedRun *repeated, long i)
         if (repeated->is_resumed && k == 0 && n > 1)
             continue;
         gudgeon_audit_samples(1, get_sample_times(batch, i) + k, y, y + N_Q,
-            batch->discrete_states + (first + k) * AT_LEAST_ONE(N_DISCRETE), batch->p + i * batch->numbers,
+            batch->discrete_states + (first + k) * AT_LEAST_ONE(N_DISCRETE), batch->p_motion + i * batch->numbers,
             batch->size[i], error);
         for (int check = 0; check < 4; check++)
             if (error[check] > repeated->limit[check] && error[check] < INFINITY)
@@ -145,8 +145,8 @@ static int evaluate_repeated_run(const RepeatedRun *repeated, long i)
         for (int part = 0; part < 10; part++)
             to[part] = repeated->evaluated[part] ? repeated->evaluated[part] + k * width[part] : NULL;
         status = gudgeon_evaluate(1, get_sample_times(batch, i) + k, y, y + N_Q,
-            batch->discrete_states + (first + k) * AT_LEAST_ONE(N_DISCRETE), batch->p + i * batch->numbers, to[0],
-            to[1], to[2], to[3], to[4], to[5], to[6], to[7], to[8], to[9], &failed_sample);
+            batch->discrete_states + (first + k) * AT_LEAST_ONE(N_DISCRETE), batch->p_motion + i * batch->numbers,
+            to[0], to[1], to[2], to[3], to[4], to[5], to[6], to[7], to[8], to[9], &failed_sample);
     }
     return status;
 }

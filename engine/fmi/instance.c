@@ -244,22 +244,21 @@ static void synchronize_states(Model *model);
 
 /*
  * Evaluate all outputs at the current state of an instance into model->out, unless they are up to date. Return 0 or a
- * status. With mod in drives (FMU_EVALUATES_AFTER) they are evaluated just after the time of the instance.
+ * status. As the rates, they have no Baumgarte terms in the reduced formulation.
  */
 static int evaluate_outputs(Model *model)
 {
     long failed = 0;
     Outputs *o = &model->out;
-    const double t = FMU_EVALUATES_AFTER ? model->t + fmax(32.0 * 2.220446049250313e-16 * fabs(model->t), 1e-100)
-        : model->t;
     if (!model->outputs_outdated)
         return 0;
     model->outputs_outdated = 0;
 #if FMU_EXCHANGE
     synchronize_states(model);
 #endif
-    return gudgeon_evaluate(1, &t, model->y, model->y + N_Q, model->sampled_discrete, model->p, o->a, o->multipliers,
-        o->reactions, o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift, &failed);
+    return gudgeon_evaluate(1, &model->t, model->y, model->y + N_Q, model->sampled_discrete,
+        TREE ? model->motion : model->p, o->a, o->multipliers, o->reactions, o->torques, o->clearance, o->series,
+        o->friction, o->energy, o->power, o->drift, &failed);
 }
 
 /*

@@ -43,7 +43,7 @@ static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const
         const double t = end ? step->t + step->h : run->t;
         double absolute_state[N_S];
         convert_integrated_to_absolute(t, end ? step->y : run->y, &run->discrete, p, absolute_state);
-        if (has_drive_jump(t, absolute_state, absolute_state + N_Q, p))
+        if (has_drive_jump(t, get_jump_interval(t), absolute_state, absolute_state + N_Q, p))
             return 1;
     }
     return 0;

@@ -108,7 +108,7 @@ static int initialize_run_at_start(Integrator *run, const Parameters *p)
     if (DRIVE_IMPULSES) {
         double absolute_state[N_S];
         convert_integrated_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
-        if (has_drive_jump(run->t, absolute_state, absolute_state + N_Q, p))
+        if (has_drive_jump(run->t, get_jump_interval(run->t), absolute_state, absolute_state + N_Q, p))
             project_state(run, get_time_just_after(run->t), run->y, p);
     }
     const int status = initialize_discrete_state(run, p);

@@ -254,7 +254,7 @@ static void check_accelerations(Integrator *run, double t, double step_length, c
         if (second_difference < 1e-4) {
             /* at a jump of a drive the step holds the old branch, the bodies have the new one */
             if (largest_difference > AUDIT_ACCELERATION
-                && (has_drive_jump(t, absolute_state, absolute_state + N_Q, p)
+                && (has_drive_jump(t, get_jump_interval(t), absolute_state, absolute_state + N_Q, p)
                     || is_comparison_ill_conditioned(run, t, y, a, scale, largest_difference, p)))
                 return;
             record_check(&run->audit, CHECK_acceleration, largest_difference, AUDIT_ACCELERATION, t, index);

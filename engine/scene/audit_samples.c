@@ -53,12 +53,12 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
 
 /*
  * Return whether the first or second rate of a drive jumps, or is unbounded or NaN, at time t (s). It does if its
- * values just before, at and just after t differ by more than 1e-5 (second rate: 1e-3) of themselves. q, v: coordinates
- * and velocities of all bodies. Called where an audit or a start must not rely on rates at t.
+ * values at t and `interval` (s) before and after t differ by more than 1e-5 (second rate: 1e-3) of themselves. q, v:
+ * coordinates and velocities of all bodies. Called at each sample, and where an audit or a start must not rely on rates
+ * at t.
  */
-int has_drive_jump(double t, const double *q, const double *v, const Parameters *p)
+int has_drive_jump(double t, double interval, const double *q, const double *v, const Parameters *p)
 {
-    const double interval = max_of(1e-9 * fabs(t), 1e-12);
     double nu[3][AT_LEAST_ONE(N_ALL_ROWS)], gamma[3][AT_LEAST_ONE(N_ALL_ROWS)];
     for (int k = 0; k < 3; k++) {
         velocity_rhs(t + (k - 1) * interval, q, p, nu[k]);
@@ -84,7 +84,8 @@ int has_drive_jump(double t, const double *q, const double *v, const Parameters 
  *   1: drive torques times rates - power of the drives;
  *   2: Phi, relative to `size` (m);
  *   3: Phi_q v - nu.
- * dV/dt and Phi_q v are differences along v. A sample at a jump of a drive has zeros.
+ * dV/dt and Phi_q v are differences along v. In Phi, the motion of drives in compute_sample_time_error() is allowed. A
+ * sample without accelerations has zeros.
  */
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *relative_errors)
@@ -98,7 +99,8 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
         double reactions[3 * AT_LEAST_ONE(N_REACTIONS)], torques[AT_LEAST_ONE(N_DRIVES)];
         double series[AT_LEAST_ONE(N_SERIES)];
-        double nu[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)];
+        double nu[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)], nu_near[2][AT_LEAST_ONE(N_ALL_ROWS)];
+        double time = t[i];
         double force[2] = {0.0, 0.0}, max_speed[2] = {0.0, 0.0}, max_coordinate[2] = {0.0, 0.0};
         relative_errors[0] = relative_errors[1] = relative_errors[2] = relative_errors[3] = 0.0;
         for (int k = 0; k < N_Q; k++) {
@@ -106,7 +108,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             y[N_Q + k] = v[k];
         }
         read_discrete_state(discrete, &discrete_state);
-        if (has_drive_jump(t[i], q, v, p) || evaluate_rates_at(t[i], y, &discrete_state, p, dy, &rhs))
+        if (evaluate_rates_at_sample(&time, y, &discrete_state, p, dy, &rhs))
             continue;
         for (int k = 0; k < N_Q; k++) {
             const int angle = k % 3 == 2;
@@ -120,11 +122,14 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         for (int branch = 0; branch < 2; branch++) {
             for (int k = 0; k < N_Q; k++)
                 near[branch][k] = q[k] + (branch ? h : -h) * v[k];
-            outputs(t[i], near[branch], v, p, rhs.lambda, reactions, torques, series, stored[branch]);
+            outputs(time, near[branch], v, p, rhs.lambda, reactions, torques, series, stored[branch]);
         }
-        outputs(t[i], q, v, p, rhs.lambda, reactions, torques, series, stored[2]);
-        constraints(t[i], q, p, phi);
-        compute_velocity_residuals(t[i], q, v, h, p, missed, nu);
+        outputs(time, q, v, p, rhs.lambda, reactions, torques, series, stored[2]);
+        constraints(time, q, p, phi);
+        compute_velocity_residuals(time, q, v, h, p, missed, nu);
+        const double time_error = compute_sample_time_error(t[i]);
+        for (int side = 0; side < 2; side++)
+            velocity_rhs(t[i] + (side ? time_error : -time_error), q, p, nu_near[side]);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
         double terms = MIN_POWER + fabs(sum) + force[0] * max_speed[0] + force[1] * max_speed[1];
@@ -150,7 +155,8 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             const double max_body_speed = length ? max_of(max_speed[0], size * max_speed[1])
                 : max_of(max_speed[1], max_speed[0] / size);
             const double speed = max_of(max_body_speed, fabs(nu[row])) + 1e9 * DBL_EPSILON * max_size / between;
-            relative_errors[2] = max_of(relative_errors[2], fabs(phi[row]) / (unit + max_size));
+            const double moved = time_error * max_of(fabs(nu_near[0][row]), fabs(nu_near[1][row]));
+            relative_errors[2] = max_of(relative_errors[2], (fabs(phi[row]) - moved) / (unit + max_size));
             if (speed > 0.0)
                 relative_errors[3] = max_of(relative_errors[3], fabs(missed[row]) / speed);
             const double lost = rhs.lambda[r] * missed[row]; /* power of the velocity error, as by rounding */

@@ -81,6 +81,74 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
     discrete->min_pivot_size = VANISHING;
 }
 
+#define MAX_SAMPLE_TIME_ERROR 4e-12 /* s: largest distance of a sample from the event whose state it has */
+#define MIN_RELATIVE_JUMP 1e-6 /* of the rates: smaller differences are drift, not a jump */
+
+/* Return how far the time t of a sample may be from that of its state, s: location of events, and rounding. */
+static double compute_sample_time_error(double t)
+{
+    return MAX_SAMPLE_TIME_ERROR + (get_time_just_after(fabs(t)) - fabs(t));
+}
+
+/*
+ * Return the time near t (s) at which the rates of drives belong to the velocities of a sample at t, whose coordinates
+ * and velocities are q and v. phi_dot (N_ROWS): Phi_q v - nu at time t. It is just after t, unless a rate of a drive
+ * jumps nearby and the velocities agree better with the rate at another time, up to compute_sample_time_error() before
+ * or after t.
+ */
+static double find_time_of_velocities(
+    double t, const double *q, const double *v, const double *phi_dot, const Parameters *p)
+{
+    const double max_distance = compute_sample_time_error(t);
+    double nu_at_t[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)], least = INFINITY, chosen = t;
+    double gamma[2][AT_LEAST_ONE(N_ALL_ROWS)], smooth = 0.0; /* change of rates without a jump */
+    velocity_rhs(t, q, p, nu_at_t);
+    for (int side = 0; side < 2; side++) {
+        acceleration_rhs(t + (side ? max_distance : -max_distance), q, v, p, gamma[side]);
+        for (int k = 0; k < N_ROWS; k++)
+            smooth += 10.0 * max_distance * fabs(gamma[side][motion_row[k]]);
+    }
+    for (double distance = get_time_just_after(t) - t; distance <= max_distance;
+         distance = max_of(2.0 * distance, 1e-15))
+        for (int sign = 1; sign >= -1; sign -= 2) {
+            double mismatch = 0.0, rate = 0.0;
+            velocity_rhs(t + sign * distance, q, p, nu);
+            for (int k = 0; k < N_ROWS; k++) {
+                const double velocity = phi_dot[k] + nu_at_t[motion_row[k]];
+                mismatch += fabs(velocity - nu[motion_row[k]]);
+                rate += fabs(velocity) + fabs(nu[motion_row[k]]);
+            }
+            if (mismatch < 0.5 * least && least > MIN_RELATIVE_JUMP * rate + smooth) {
+                least = mismatch;
+                chosen = t + sign * distance;
+            }
+        }
+    return chosen;
+}
+
+/*
+ * Compute the rates dy and outputs rhs of the state y of a sample at time *t, which is set to the time of evaluation.
+ * At a jump of a drive's rate or second rate, rounding and the location of events decide on which side of the jump a
+ * sample's time is. The rates of drives are therefore those to which its velocities belong
+ * (find_time_of_velocities()), and those after the jump of a second rate. Return a status. Called for each sample.
+ */
+static int evaluate_rates_at_sample(
+    double *t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
+{
+    DiscreteState unchanged;
+    if (RATE_JUMPS)
+        unchanged = *discrete;
+    const int status = evaluate_rates_at(*t, y, discrete, p, dy, rhs);
+    if (!RATE_JUMPS || !has_drive_jump(*t, compute_sample_time_error(*t), y, y + N_Q, p))
+        return status;
+    const double time = find_time_of_velocities(*t, y, y + N_Q, rhs->phi_dot, p);
+    if (time == *t)
+        return status;
+    *t = time;
+    *discrete = unchanged;
+    return evaluate_rates_at(time, y, discrete, p, dy, rhs);
+}
+
 /*
  * Compute the parameters p from the values that are specified, in SI units: given_values[k] where is_given[k] is 1, its
  * default value or derived expression where it is 0.
@@ -245,8 +313,10 @@ static void sum_corner_forces(const Clearance *corner_clearances, double *reacti
 /*
  * Compute the results at n samples into the arrays that are not NULL: accelerations, multipliers, columns of joints
  * with play and friction elements, powers, residuals (drift). Reactions, torques, series and energy belong together:
- * all or none are NULL. discrete: rows of N_DISCRETE. Return 0, or the number of a vanishing pivot with the index of
- * the sample in *failed_sample; later samples are not computed.
+ * all or none are NULL. discrete: rows of N_DISCRETE. Rates of drives are those to which the velocities v belong
+ * (evaluate_rates_at_sample()). parameters: those of the motion, with Baumgarte's gains only if the method uses them.
+ * Return 0, or the number of a vanishing pivot with the index of the sample in *failed_sample; later samples are not
+ * computed.
  */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
@@ -256,13 +326,13 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     for (long i = 0; i < n; i++) {
         DiscreteState discrete_state = {0};
         RhsOutputs rhs;
-        double y[N_S] = {0.0}, dy[N_S];
+        double y[N_S] = {0.0}, dy[N_S], time = t[i];
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[i * N_Q + k];
             y[N_Q + k] = v[i * N_Q + k];
         }
         read_discrete_state(discrete + i * N_DISCRETE, &discrete_state);
-        const int status = evaluate_rates_at(t[i], y, &discrete_state, p, dy, &rhs);
+        const int status = evaluate_rates_at_sample(&time, y, &discrete_state, p, dy, &rhs);
         if (status) {
             *failed_sample = i;
             return status;
@@ -281,7 +351,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             out[DRIFT_phi_dot] = max_of(fabs(rhs.phi_dot[k]), out[DRIFT_phi_dot]);
         }
         if (energy)
-            outputs(t[i], y, y + N_Q, p, rhs.lambda, reactions + i * N_REACTION_COLUMNS * N_REACTIONS,
+            outputs(time, y, y + N_Q, p, rhs.lambda, reactions + i * N_REACTION_COLUMNS * N_REACTIONS,
                 torques + i * N_DRIVES, series + i * N_SERIES, energy + N_ENERGY * i);
 #ifdef WALLS
         if (energy)

@@ -152,8 +152,8 @@ void solve_block(int n, const double *A, const int *pivot_rows, double *x);
 int compute_absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p,
     double *a,
     double *force);
-/* Return whether the first or second rate of a drive jumps at time t. */
-int has_drive_jump(double t, const double *q, const double *v, const Parameters *p);
+/* Return whether the first or second rate of a drive jumps within `interval` (s) of time t. */
+int has_drive_jump(double t, double interval, const double *q, const double *v, const Parameters *p);
 /* Phi_q v - nu, and nu, of all constraint equations; Phi_q v is the difference of Phi over h (s) before and after. */
 void compute_velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p,
     double *missed,

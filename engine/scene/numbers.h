@@ -77,6 +77,9 @@ static inline double get_time_just_after(double t) { return t + max_of(32.0 * DB
 /* Return the time at which rates of drives are evaluated: just after t if they may jump, else t. */
 static inline double get_time_after_jump(double t) { return RATE_JUMPS ? get_time_just_after(t) : t; }
 
+/* Return the time in s before and after t within which audits and starts do not rely on rates at a jump of a drive. */
+static inline double get_jump_interval(double t) { return max_of(1e-9 * fabs(t), 1e-12); }
+
 /*
  * Return a mod b by floored division: 0 or with the sign of b, and |result| <= |b|. The result equals b only if a tiny
  * remainder of the other sign rounds to b.

@@ -151,7 +151,7 @@ def _get_smooth_system(program: Program) -> TreeSystem:
     if model.frictions:
         raise NoTaylorSeries(f"the friction of {model.frictions[0].name} may stick")
     if tree.driven_loop_kernels:
-        raise NoTaylorSeries("drives determine the coordinates of a loop")
+        raise NoTaylorSeries("a loop is rigid, or drives determine its coordinates")
     if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
         raise NoTaylorSeries("an expression has switching points (where, abs, min, max, sign, mod, ramp)")
     if find_drives_with_jumps(model):

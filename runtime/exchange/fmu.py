@@ -204,7 +204,6 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_FINE_RTOL": repr(small_rtol),
         "FMU_HAS_FILM": int(any(joint.film for joint in source.clearances)),
         "FMU_FILM_VELOCITY_TOL": repr(MAX_FILM_SPEED_ERROR),
-        "FMU_EVALUATES_AFTER": int(bool(compiled.has_mod_in_drives)),
         "FMU_MAX_CORRECTION": repr(MAX_CORRECTION),
         "FMU_AUTOMATIC": int(not source.is_explicit),
         "FMU_FIRST_METHOD": f'"{first_method_name}"',

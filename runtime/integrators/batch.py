@@ -268,7 +268,7 @@ class Runs(StoredRuns):
             state=x["codes"][i, :joints] if i in self.resumed else None,
             method=self.method,
             rtol=self.rtol,
-            p_motion=None if self.method == "rk4" else x["p_motion"][i],
+            p_motion=x["p_motion"][i],
             stop=self.stop,
             start_is_sample=not self.times.n_skipped[i],
             audit=self.audit,

@@ -168,7 +168,7 @@ class KinematicRun:
                 motion_struct,
                 last - first,
                 self.pointer(self.t[rows]),
-                self.pointer(self.problem.p),
+                self.pointer(self.problem.values_of_motion),
                 *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
                 self.pointer(self.maxima),
                 self.pointer(self.maxima[1:]),
@@ -194,7 +194,7 @@ class KinematicRun:
             self.pointer(self.motion_struct, "void *"),
             last - first,
             self.pointer(self.t[rows]),
-            self.pointer(self.problem.p),
+            self.pointer(self.problem.values_of_motion),
             *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
             self.pointer(done, "long *"),
         )
@@ -248,7 +248,9 @@ class KinematicRun:
         k = self.last_complete
         if not self.has_first_sample or not t > self.t[k]:
             return self.q[k]
-        return compute_motion_at(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
+        return compute_motion_at(
+            self.compiled, self.problem.values_of_motion, np.array([self.t[k], t]), self.q[k], self.v[k]
+        )[0][1]
 
     def _build_undefined_error(self, t: float) -> SolverError:
         """Build the error for a drive, a force or one of their rates that is not a number at t (s), with its

@@ -74,7 +74,7 @@ class KinematicEnsemble:
             "t": np.ascontiguousarray(times.t),
             "n_requested": np.ascontiguousarray(times.count, np.int_),
             "sample_block": arrays["sample_block"],
-            "p": np.ascontiguousarray(arrays["p"]),
+            "p": np.ascontiguousarray(arrays["p_motion"]),
             "size": compute_mechanism_sizes(compiled.source, arrays["p"]),
         }
         self._struct = struct = compiled.ffi.new("KinematicBatch *")

@@ -67,7 +67,7 @@ class KinematicEvents:
             pointer(run_state.motion_struct, "void *"),
             len(times) - 1,
             pointer(times),
-            pointer(self.problem.p),
+            pointer(self.problem.values_of_motion),
             pointer(run_state.q[first:]),
             pointer(run_state.v[first:]),
             float(run_state.t[0]),

@@ -70,8 +70,7 @@ class SingleRun(Runs):
     def begin_problem(self, problem: Problem) -> None:
         """Reset the arrays for C, and set start, times, parameter values, tolerances and observer of the next run.
 
-        The results of the previous run are overwritten. The parameters of the motion are `p_motion` (without Baumgarte
-        gains) unless the method is rk4.
+        The results of the previous run are overwritten. The parameters of the motion are `values_of_motion`.
         """
         compiled, x, n = self.compiled, self.arrays, self.compiled.n
         assert isinstance(x, SingleRunArrays)
@@ -79,7 +78,7 @@ class SingleRun(Runs):
         x["t"][:] = t = problem.t
         x["step"][0], x["t_last"][0], x["p"][0] = problem.step, t[0], problem.p
         compiled.lib.gudgeon_compute_tolerances(*self._tolerance_arguments)
-        x["p_motion"][0] = problem.p if problem.method == "rk4" or problem.p_motion is None else problem.p_motion
+        x["p_motion"][0] = problem.values_of_motion
         start = x["start"][0]
         start[:n], start[n:] = problem.q, problem.v
         if compiled.n_discrete_states:

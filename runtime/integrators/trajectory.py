@@ -103,7 +103,7 @@ class Problem:
     state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one resumes
     method: str = "rk4"
     rtol: float = 0.0  # tolerance of methods that control their step
-    p_motion: Array | None = None  # p without Baumgarte's gains, for methods that project
+    p_motion: Array | None = None  # p without Baumgarte's gains; None: p, for methods that use them
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # notes on the start, which come first in the run's notes
     start_is_sample: bool = True  # False: t[0] was not requested
@@ -111,6 +111,11 @@ class Problem:
     resumed_state: State | None = None  # state that the run resumes from
     observer: StepCallback | None = None  # observer of all steps
     poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (cancellation.py)
+
+    @property
+    def values_of_motion(self) -> Array:
+        """Return the parameter values with which the method integrates and the samples are evaluated."""
+        return self.p if self.p_motion is None else self.p_motion
 
 
 class Counts(NamedTuple):

@@ -75,20 +75,9 @@ class CompiledModel:
         return read_compiler_version()
 
     @cached_property
-    def has_mod_in_drives(self) -> bool:
-        """Return whether a drive uses `mod`: rounding then decides on which side of a switching point a time is."""
-        from gudgeon.language.tree import list_functions
-        from gudgeon.model.file_expressions import read_expression_trees
-
-        return any("mod" in list_functions(tree) for _, tree in read_expression_trees(self.source, ("drives",)))
-
-    @cached_property
     def has_all_forces(self) -> bool:
-        """Return whether all forces are determined, and samples are evaluated at exactly their own times.
-
-        False without masses, for redundant constraints, and for drives with `mod`.
-        """
-        return not (self.source.massless_bodies or self.source.indeterminate or self.has_mod_in_drives)
+        """Return whether all forces are determined: False without masses, and for redundant constraints."""
+        return not (self.source.massless_bodies or self.source.indeterminate)
 
     @cached_property
     def may_drive_acceleration_jump(self) -> bool:

@@ -85,8 +85,6 @@ def evaluate(
     accelerations.
     """
     time = as_c_array(t, "t", (None,))
-    if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
-        time = np.asarray(time + compute_rounding_distance(time))
     N = len(time)
     check = _check_matrix if N > FIRST_CHUNK_SAMPLES else _convert_matrix
     memory = check(discrete_states, "memory", N, None)
@@ -126,11 +124,10 @@ def evaluate_runs(
     """Return the quantities at few samples of several runs: sample_counts[i] samples of run i with values p[i].
 
     The samples of the runs follow each other: t (N,), q and v (N, n), discrete_states (N, n_discrete_states), N =
-    sum(sample_counts). With `mod` in drives the times are shifted by rounding, to the side after a jump. `field_names`:
-    the requested fields. Raises ArrayError, SingularError.
+    sum(sample_counts). `field_names`: the requested fields. Raises ArrayError, SingularError.
     """
-    N, time = sum(sample_counts), t + compute_rounding_distance(t) if compiled.has_mod_in_drives else t
-    shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
+    N = sum(sample_counts)
+    shapes = (("t", t, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
     input_pointers.append(compiled.pointer(as_c_array(discrete_states, "memory", (N, compiled.n_discrete_states))))
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))

@@ -22,6 +22,7 @@ from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, make_empty_events
 from gudgeon.language.argument_checks import check_text
 from gudgeon.language.text_output import format_count
+from gudgeon.model.baumgarte import select_motion_values
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.deferred_fields import defer_fields, find_deferred_function, read_deferred_fields
 from gudgeon.model.evaluation import FIELD_NAMES, Evaluation
@@ -247,7 +248,9 @@ class Result(NotebookDisplay):
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
         return self.compiled.evaluate(
-            find_evaluation_times_of_result(self, self.compiled), self.q, self.v, self.memory, self.p
+            find_evaluation_times_of_result(self, self.compiled),
+            *(self.q, self.v, self.memory),
+            select_motion_values(self.compiled, self.diagnostics.method, self.p),
         )
 
     @property

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from gudgeon.errors import GudgeonError
+from gudgeon.model.baumgarte import select_motion_values
 from gudgeon.model.deferred_fields import find_deferred_function, replace_fields
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.results.state import Array
@@ -214,7 +215,8 @@ def _recompute_motion(run: Result) -> Trajectory:
     if run.diagnostics.method != kinematic.NAME:
         raise GudgeonError(f"no states at events: method {run.diagnostics.method!r} does not store them")
     times = np.union1d(run.t, run.events["t"])
-    problem = Problem(run.compiled, run.p, times, run.q[0], run.v[0], np.zeros(0), np.inf, stop=False)
+    p = select_motion_values(run.compiled, kinematic.NAME, run.p)
+    problem = Problem(run.compiled, p, times, run.q[0], run.v[0], np.zeros(0), np.inf, stop=False)
     trajectory = kinematic.integrate_kinematic(problem)
     if trajectory.interrupted:
         raise KeyboardInterrupt

@@ -173,11 +173,12 @@ class SampleAudit:
         )
         t, q = trajectory.t[samples], trajectory.q[samples]
         errors = np.zeros((len(samples), len(LIMITS)))
-        given = [compiled.pointer(values) for values in (t, q, trajectory.v[samples], discrete_states, problem.p)]
+        p = problem.values_of_motion
+        given = [compiled.pointer(values) for values in (t, q, trajectory.v[samples], discrete_states, p)]
         compiled.lib.gudgeon_audit_samples(len(samples), *given, size, compiled.pointer(errors, is_written=True))
         limits, body = LIMITS, ""
         if problem.audit > 1 or trajectory.counts.right_hand_sides > MIN_CALLS_OF_LONG_RUN:
-            residuals = compute_newton_euler_residuals(compiled, problem.p, q, self._join_random_evaluations())
+            residuals = compute_newton_euler_residuals(compiled, p, q, self._join_random_evaluations())
             errors, limits = np.column_stack([errors, residuals.max(axis=1)]), LIMITS | BODY_LIMIT
             body = compiled.source.bodies[int(residuals.max(axis=0).argmax())].name
         times, findings = t.tolist(), []

@@ -34,7 +34,7 @@ from gudgeon.simulation.newton_euler import make_body_force_table
 from gudgeon.simulation.sample_checks import compute_energy_balance
 
 MAX_SAMPLES = FIRST_CHUNK_SAMPLES  # of a run that C checks in one call
-_ARRAYS = ("y", "discrete_states", "p", "audit_values", "start", "size")  # of a run, that C reads
+_ARRAYS = ("y", "discrete_states", "p_motion", "audit_values", "start", "size")  # of a run, that C reads
 RIGHT_HAND_SIDES = COUNT_NAMES.index("right_hand_sides")  # column of the counts of a run
 
 

@@ -35,6 +35,7 @@ from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.argument_checks import check_flag, check_text, is_integer
 from gudgeon.language.quantities import has_names
 from gudgeon.model.arrays import as_c_array
+from gudgeon.model.baumgarte import has_baumgarte_terms
 from gudgeon.model.compiled import Array
 from gudgeon.model.evaluation import check_sample_memory
 from gudgeon.model.parameter_columns import ParameterColumns, check_parameter_arguments
@@ -114,7 +115,9 @@ class RunSetup:
             check_flag(settings["stop"], "stop"),
             parse_audit_level(settings["audit"]),
             settings,
-            ParameterColumns(scene.compiled, checked_names, constants, method == "rk4", N_ROWS),
+            ParameterColumns(
+                scene.compiled, checked_names, constants, has_baumgarte_terms(scene.source, method), N_ROWS
+            ),
         )
 
     @property

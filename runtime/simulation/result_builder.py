@@ -403,7 +403,7 @@ class _DeferredFieldsOfPassingRun(_DeferredFields):
     def _evaluation(self) -> Evaluation:
         """Evaluate the samples once."""
         x, problem = self.trajectory, self.problem
-        return problem.compiled.evaluate(self.times, x.q, x.v, x.memory, problem.p)
+        return problem.compiled.evaluate(self.times, x.q, x.v, x.memory, problem.values_of_motion)
 
     def evaluation(self) -> Evaluation:
         """Return the evaluation of the samples."""

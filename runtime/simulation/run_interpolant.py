@@ -208,9 +208,6 @@ class RunInterpolant:
         """
         is_solvable = np.asarray(np.isfinite(steps.q).all(axis=1) & np.isfinite(steps.v).all(axis=1))
         t = steps.t
-        if self.compiled.has_mod_in_drives and not self.is_kinematic:  # step ends have the rates before a jump
-            since = t - np.maximum.accumulate(np.where(steps.is_after_jump, t, -np.inf))
-            t = np.where(since > 4.0 * compute_rounding_distance(t), t - 2.0 * compute_rounding_distance(t), t)
         while True:
             try:
                 states = (

@@ -55,7 +55,7 @@ def check_samples(
     for first in range(0, max(N, 1), MAX_STORED):
         rows = slice(first, first + MAX_STORED)
         evaluation = compiled.evaluate(
-            times[rows], trajectory.q[rows], trajectory.v[rows], trajectory.memory[rows], problem.p, poll
+            times[rows], trajectory.q[rows], trajectory.v[rows], trajectory.memory[rows], problem.values_of_motion, poll
         )
         energy.append(evaluation.energy)
         slip.append(evaluation.friction[:, :, 1])

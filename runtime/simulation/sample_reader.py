@@ -35,12 +35,7 @@ class SampleReader:
         self.evaluation_fields = find_evaluation_fields(source, names)
         is_simple = not (
             self.evaluation_fields
-            and (
-                run.compiled.has_mod_in_drives
-                or run.compiled.may_drive_acceleration_jump
-                or source.massless_bodies
-                or source.indeterminate
-            )
+            and (run.compiled.may_drive_acceleration_jump or source.massless_bodies or source.indeterminate)
         )
         self._is_reusable = is_simple and self.n_samples <= MAX_SAMPLES and not source.massless_bodies
         self.values = np.empty((len(names), self.n_samples - n_skipped))  # that C stores

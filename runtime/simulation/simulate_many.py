@@ -13,7 +13,6 @@ import numpy as np
 from gudgeon.assembly.guess_warnings import warn_guess_deviations_in_runs
 from gudgeon.assembly.journals import check_journal_positions, describe_contacts_with_assumed_approach_speed
 from gudgeon.assembly.rank import find_constraint_violation, list_redundant_equations
-from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.batch import Runs
@@ -23,6 +22,7 @@ from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, convert_counts_of_runs
 from gudgeon.language.argument_checks import check_callable, check_flag, check_text, is_integer, shorten_value
 from gudgeon.language.text_output import format_count
+from gudgeon.model.baumgarte import has_baumgarte_terms
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import read_contours, select_contours_of_run
 from gudgeon.model.evaluation import check_sample_memory
@@ -118,8 +118,9 @@ def simulate_many(
     selected = select_method(source, method, step is not None)
     tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
     options = _BatchOptions(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
-    projects = selected not in ("rk4", KINEMATIC)
-    p, p_motion, failures = compute_parameter_values_of_runs(compiled, starts.given, starts.is_given, projects)
+    p, p_motion, failures = compute_parameter_values_of_runs(
+        compiled, starts.given, starts.is_given, not has_baumgarte_terms(source, selected)
+    )
     failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
     check_sample_memory(
@@ -165,7 +166,7 @@ def _run_batch(
     )
     runs.set_starts(starts.states)
     runs.exclude_runs(failures)
-    runs.observers = observers = starts.make_observers(p, failures, options)
+    runs.observers = observers = starts.make_observers(p_motion, failures, options)
     results = _Results(simulation, runs, starts, options, stored_series)
     time_at_begin = time.perf_counter()
     results.integrate_runs(options.progress)

@@ -20,6 +20,7 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.argument_checks import check_callable
 from gudgeon.loading.kernel_sources import Loading, read_unchanged_file
+from gudgeon.model.baumgarte import has_baumgarte_terms
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_sample_memory
@@ -292,12 +293,12 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         initial_state = None if start is None else copy_checked_state(self.source, start)
         if initial_state is None and contour is None:
             given, is_given, p, remarks = read_file_parameters(self.compiled, parameters)
-            given, is_given, (p, p_without_gains) = given.copy(), is_given.copy(), p.copy()
+            given, is_given, (p, p_motion) = given.copy(), is_given.copy(), p.copy()
         else:
             given, is_given, remarks = merge_parameters(
                 self.compiled, initial_state, parameters, read_contours(self.source, contour)
             )
-            p, p_without_gains = compute_cached_run_values(self.compiled, given, is_given)
+            p, p_motion = compute_cached_run_values(self.compiled, given, is_given)
         t0 = 0.0 if initial_state is None else initial_state.t
         times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
         check_sample_memory(self.compiled, len(times))
@@ -319,7 +320,13 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
             remarks += describe_contacts_with_assumed_approach_speed(self.compiled, p, t0, q, v, memory)
-        observer = make_observer(self.compiled, (p, given, is_given), settings.rtol, names, compared_scene)
+        observer = make_observer(
+            self.compiled,
+            (p if has_baumgarte_terms(self.source, settings.method) else p_motion, given, is_given),
+            settings.rtol,
+            names,
+            compared_scene,
+        )
         ctrl_c = DelayedCtrlC()
         problem = Problem(
             self.compiled,
@@ -333,7 +340,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             None if initial_state is None else initial_state.state,
             settings.method,
             settings.rtol,
-            p_without_gains,
+            None if has_baumgarte_terms(self.source, settings.method) else p_motion,
             settings.stop,
             remarks,
             from_start,

@@ -150,7 +150,8 @@ class ComparedScene:
             for k, slot in enumerate(source.parameters)
             if slot.address in addresses
         }
-        self.parameter_arrays = compute_parameter_values(self.compiled, values)
+        _, given, is_given = compute_parameter_values(self.compiled, values)
+        self.parameter_arrays = compute_values_without_baumgarte(self.compiled, given, is_given), given, is_given
         self.failure_reason = ""  # message of the error that ended its integration; "" without one
         self.problem: Problem | None = None  # the problem from the last state on
         self.last_state: Steps | None = None  # last state of the integration
@@ -214,7 +215,6 @@ class ComparedScene:
             math.inf,
             method=method,
             rtol=self.rtol,
-            p_motion=compute_values_without_baumgarte(self.compiled, given, is_given),
             stop=False,
         )
 

@@ -145,7 +145,7 @@ def build_samples(runs: Runs, i: int, field_names: frozenset[str]) -> EvaluatedS
     """
     if not runs.arrays["done"][i]:
         return None
-    n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
+    n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p_motion"][i]
     t, y, discrete_states, state = runs.get_samples(i)
     result = make_evaluated_samples(
         source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], discrete_states, state, field_names
@@ -172,7 +172,7 @@ def _get_accelerations(runs: Runs, i: int) -> Array | None:
     times = find_evaluation_times_of_run(runs, i)
     if times[-1] == t[-1]:
         return a
-    q, v, p = y[-1:, :n], y[-1:, n : 2 * n], runs.arrays["p"][i]
+    q, v, p = y[-1:, :n], y[-1:, n : 2 * n], runs.arrays["p_motion"][i]
     last = compiled.evaluate(times[-1:], q, v, discrete_states[-1:], p, field_names=frozenset(["a"]))
     return np.append(a[:-1], last.a, axis=0)
 
@@ -188,7 +188,7 @@ def _concatenate_samples(runs: Runs, indices: Sequence[int], field_names: frozen
     run_lengths = [len(samples[0]) for samples in samples_of_runs]
     t, y, discrete_states, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
     q, v = y[:, :n], y[:, n : 2 * n]
-    parameter_values = runs.arrays["p"][indices]
+    parameter_values = runs.arrays["p_motion"][indices]
     result = make_evaluated_samples(
         compiled.source, compiled, parameter_values, t, q, v, y[:, 2 * n :], discrete_states, state, field_names
     )

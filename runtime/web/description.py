@@ -25,6 +25,7 @@ from gudgeon.integrators.adaptive import (
 from gudgeon.integrators.kinematic import MAX_CORRECTION
 from gudgeon.language.tree import to_json
 from gudgeon.language.undefined_parts import DIVIDING
+from gudgeon.model.baumgarte import has_baumgarte_terms
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import MAX_STEP_FRACTION, T_END, estimate_default_step
@@ -79,7 +80,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "clearances": [[joint.name, joint.clearance] for joint in source.clearances],
         **({"contours": {item.joint: [item.first, item.count] for item in source.contours}} if source.contours else {}),
         "film": any(joint.film for joint in source.clearances),
-        "beyond": compiled.has_mod_in_drives,
+        "rk4_has_gains": has_baumgarte_terms(source, "rk4"),
         "rtol": RTOL,
         "felt_by_films": MAX_FILM_SPEED_ERROR,
         "reach": MAX_CORRECTION,

@@ -80,11 +80,12 @@ const STORED_ARRAYS = ["q", "v", "work", "memory", "state"]; // which the time l
  * Samples of a run by rows, and lists of events and impacts.
  *
  * t (N) in s; q, v (N n); work (N 3) in J; memory: discrete states; state: contact codes; a (N n) of a kinematic
- * analysis. counts: steps and others by name; p: parameter values; size of the mechanism in m.
+ * analysis. counts: steps and others by name; p: parameter values, p_motion: those of the motion; size of the mechanism
+ * in m.
  */
 class Run {
     constructor(sim, t) {
-        Object.assign(this, {sim, description: sim.description, t, p: sim.p, size: sim.size});
+        Object.assign(this, {sim, description: sim.description, t, p: sim.p, p_motion: sim.p_motion, size: sim.size});
         Object.assign(this, {events: [], impacts: [], undefinedEvents: []});
         this.seriesCache = new Map();
         this.catalogue = this.buildCatalogue();
@@ -220,10 +221,9 @@ class Run {
 
     /* Evaluate all samples in C, and return the arrays by name, row by row. Throws an Error at a singular sample. */
     evaluateSamples(memory) {
-        const {widths, beyond: hasModInDrives} = this.description, N = this.t.length, {lib} = this.sim;
-        // velocities are those after a switching point, although rounding may put the time before it
-        const t = hasModInDrives ? this.t.map((x) => x + Math.max(32 * Number.EPSILON * Math.abs(x), 1e-100)) : this.t;
-        const inputs = [t, this.q, this.v, this.memory, this.p].map((x) => memory.allocateDoubles(x.length, x));
+        const {widths} = this.description, N = this.t.length, {lib} = this.sim;
+        const inputs = [this.t, this.q, this.v, this.memory, this.p_motion].map((x) =>
+            memory.allocateDoubles(x.length, x));
         const outputs = Object.entries(widths).map(([name, width]) =>
             [name, memory.allocateDoubles(N * width), N * width]);
         const failed = memory.allocateBytes(4);

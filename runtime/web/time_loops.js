@@ -47,7 +47,9 @@ function makeRunError(run, status, messages, pivots, t) {
  */
 class Integration {
     constructor(sim, {t, method, rtol, step}, memory, run) {
-        const {lib, n, description} = sim, p = method === "rk4" ? sim.p : sim.p_motion, capacity = t.length + 1;
+        const {lib, n, description} = sim, capacity = t.length + 1;
+        const p = method === "rk4" && description.rk4_has_gains ? sim.p : sim.p_motion;
+        run.p_motion = p;
         const n_joints = Math.max(description.clearances.length, 1);
         Object.assign(this, {sim, lib, n, t, method, step, memory, run});
         this.widths = {y: 2 * n + N_WORK, discreteStates: Math.max(description.memory, 1), contactCodes: n_joints};
@@ -220,7 +222,7 @@ class KinematicAnalysis {
         [this.q, this.v, this.a] = [n, n, n].map((width) => memory.allocateDoubles(rows * width));
         this.work = memory.allocateDoubles(rows * N_WORK);
         this.times = memory.allocateDoubles(rows + 1, t);
-        this.p = memory.allocateDoubles(sim.p.length, sim.p);
+        this.p = memory.allocateDoubles(sim.p.length, sim.p_motion);
         this.maxima = memory.allocateDoubles(2); // |Φ|, |Φ̇|
         this.callCounts = memory.allocateBytes(8); // steps in total, rows of the last call
         this.branches = memory.allocateBytes(description.events.length);

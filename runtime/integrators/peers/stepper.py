@@ -22,7 +22,7 @@ class Equations:
 
     def __init__(self, problem: Problem, contacts: Contacts) -> None:
         self.compiled, self.contacts = problem.compiled, contacts
-        self.p = problem.p if problem.p_motion is None else problem.p_motion
+        self.p = problem.values_of_motion
         self.size = 2 * self.compiled.n + N_WORK
         self.calls = self.jacobians = 0
         self.failure: SolverError | None = None  # error of a call inside the solver, which may swallow it
