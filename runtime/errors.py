@@ -175,7 +175,7 @@ class CacheError(GudgeonError):
 
 
 class OutputError(GudgeonError):
-    """Signal a file that cannot be written: `path`, `reason`. The old file is unchanged.
+    """Signal a file that cannot be written: `path`, `reason`. An old file is unchanged.
 
     The exit code is 2 if another name or folder helps, 1 if the disk is the cause.
     """
@@ -186,6 +186,8 @@ class OutputError(GudgeonError):
         self.reason = str(reason) if isinstance(reason, str) else reason.strerror or str(reason)
         self.exit_code = 2 if isinstance(reason, str) or code in _PATH_ERRORS else 1
         hint = _ERROR_HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
+        if code in _FULL_ERRORS and os.path.isfile(self.path):
+            hint = f"the old file is unchanged; {hint}"
         super().__init__(f"cannot write {shorten_path(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
 
 
@@ -212,10 +214,12 @@ _PATH_ERRORS = {
     errno.EPERM,
     errno.EROFS,
 }
+# errors while a file is written, under a temporary name
+_FULL_ERRORS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 # hints by error number
 _ERROR_HINTS = {
-    errno.ENOSPC: "the old file is unchanged; free disk space or name another folder, and repeat the command",
-    errno.EDQUOT: "the old file is unchanged; free disk space or name another folder, and repeat the command",
-    errno.EFBIG: f"the old file is unchanged; {FILE_SIZE_LIMIT_HINT}",
+    errno.ENOSPC: "free disk space or name another folder, and repeat the command",
+    errno.EDQUOT: "free disk space or name another folder, and repeat the command",
+    errno.EFBIG: FILE_SIZE_LIMIT_HINT,
     errno.ENAMETOOLONG: "choose a shorter name",
 }

@@ -85,7 +85,7 @@ def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool)
     if not smallest <= value < 1.0:
         message = f"{value:g}" if math.isfinite(value) else repr(rtol)
         raise BadValueError(
-            f"rtol is {message}: expected a number from {smallest:g} to 1, such as 1e-8",
+            f"rtol is {message}: expected a number from {smallest:g} to less than 1, such as 1e-8",
             hint="smaller tolerances are below rounding errors" if 0.0 < value < 1.0 else "",
         )
     return value

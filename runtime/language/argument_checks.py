@@ -156,11 +156,13 @@ def check_mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
 
 
 def check_list(value: Any, name: str, item_type: type[Item], expected: str) -> list[Item]:
-    """Return a list of the items of a sequence, set, one-dimensional array or table column, all of type `item_type`.
+    """Return a list of the items of a sequence, one-dimensional array or table column, all of type `item_type`.
 
-    Raises BadValueError with `expected` for other values, also for a single text, a mapping, or a column of 10⁶ or
-    more items.
+    Raises BadValueError with `expected` for other values, also for a single text, a mapping, a set, whose order is not
+    defined, or a column of 10⁶ or more items.
     """
+    if isinstance(value, (set, frozenset)):
+        raise_bad_value(name, value, f"{expected}: a set has no order", "sorted(…) makes a list of it")
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) != 1:
         raise_bad_value(name, value, expected)
     if isinstance(value, Sequence) or len(getattr(value, "shape", ())) == 0 or len(value) < 10**6:  # type: ignore[arg-type]
@@ -171,11 +173,16 @@ def check_list(value: Any, name: str, item_type: type[Item], expected: str) -> l
 
 
 def check_names(value: Any, name: str, expected: str) -> list[str]:
-    """Return one name, or several in any sequence or set, as a list of plain str. Raises BadValueError with
-    `expected`.
+    """Return one name, or several in any sequence, as a list of plain str.
+
+    Raises BadValueError with `expected` for other values, and for a name that is given twice.
     """
-    texts = [value] if isinstance(value, str) else check_list(value, name, str, expected)
-    return [str.__str__(check_text(text, name, expected)) for text in texts]
+    items = [value] if isinstance(value, str) else check_list(value, name, str, expected)
+    texts = [str.__str__(check_text(text, name, expected)) for text in items]
+    if len({*texts}) < len(texts):
+        repeated = next(text for text in texts if texts.count(text) > 1)
+        raise BadValueError(f"{name}: {repeated!r} is given twice", hint="give it once")
+    return texts
 
 
 def check_instance(value: Any, name: str, item_type: type[Item]) -> Item:

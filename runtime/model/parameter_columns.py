@@ -10,20 +10,22 @@ import operator
 import sys
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from numbers import Number
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.boundary import GREATER, GREATER_OR_EQUAL, LESS, LESS_OR_EQUAL
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError
-from gudgeon.language.argument_checks import check_mapping, check_names
-from gudgeon.model.arrays import FLAG, set_struct_pointers
+from gudgeon.errors import ArrayError, BadValueError
+from gudgeon.language.argument_checks import check_mapping, check_names, shorten_value
+from gudgeon.model.arrays import FLAG, as_c_array, set_struct_pointers
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
 from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
 
+UNLABELLED_TYPES = {float, int, np.float64, list, tuple, np.ndarray}  # of rows and values without labels
 MAX_DOUBLE, MIN_NORMAL = sys.float_info.max, sys.float_info.min
 # codes of the operators of conditions in C
 _RELATIONS = {
@@ -138,18 +140,57 @@ class ParameterColumns:
         )
 
 
-def check_parameter_arguments(names: Any, fixed: Any) -> tuple[tuple[str, ...], dict[str, Any]]:
-    """Return the checked arguments `parameters` and `fixed` of a prepared run: names in their order, and a mapping.
+def check_parameter_arguments(names: Any, fixed: Any, argument_name: str) -> tuple[tuple[str, ...], dict[str, Any]]:
+    """Return the names of parameters that each run sets, in their order, and the mapping `fixed`, both checked.
 
-    Raises an error for arguments of another type, and BadValueError for a name twice in `parameters`, or in both.
-    Called when a run is prepared (`Simulation.prepare`).
+    `argument_name` is the argument that gives the names: "parameters" of a prepared run, "inputs" of a stepper. Raises
+    BadValueError for arguments of another type, and for a name that is given twice.
     """
-    checked = tuple(check_names(names, "parameters", "a list of addresses or parameter names"))
+    checked = tuple(check_names(names, argument_name, "a list of addresses or parameter names"))
     constants = dict(check_mapping(fixed, "fixed", "{address or parameter name: a float in SI, or '0.5 mm'}"))
     for name in checked:
-        if checked.count(name) > 1 or name in constants:
-            raise BadValueError(f"parameters: {name!r} is given twice", hint="give it once, in parameters or in fixed")
+        if name in constants:
+            hint = f"give it once, in {argument_name} or in fixed"
+            raise BadValueError(f"{argument_name}: {name!r} is given twice", hint=hint)
     return checked, constants
+
+
+def read_values_in_order(values: ArrayLike, names: Sequence[str], argument_name: str) -> Array:
+    """Return parameter values (…, n_names) as C reads them; those of a table with labels are ordered by `names`.
+
+    Tables are those of pandas, polars and xarray, and lists of their rows. Raises ArrayError for labels other than
+    `names`, and for values that are not numbers. The shape is not checked.
+    """
+    if type(values) is np.ndarray:
+        return as_c_array(values, argument_name)
+    if isinstance(values, (list, tuple)):
+        if not {*map(type, values)} <= UNLABELLED_TYPES and any(_find_labels(row) for row in values):
+            values = [read_values_in_order(row, names, argument_name) for row in values]
+        return as_c_array(values, argument_name)
+    array, labels = as_c_array(values, argument_name), _find_labels(values)
+    if not labels or labels == [*names]:
+        return array
+    if len(labels) == len(names) and {*labels} == {*names}:
+        return as_c_array(array[..., [labels.index(name) for name in names]], argument_name)
+    dims = getattr(values, "dims", ())
+    selection = f".sel({dims[-1]}={[*names]})" if dims else f"[{[*names]}]"
+    raise ArrayError(
+        f"{argument_name} has the labels {shorten_value(labels)}: expected {', '.join(names)}",
+        hint=f"{argument_name}{selection}.to_numpy()"
+        if {*names} <= {*labels}
+        else f"rename the labels, or drop them if the values are in this order: {argument_name}.to_numpy()",
+    )
+
+
+def _find_labels(values: Any) -> list[Any]:
+    """Return the labels of the last axis of a table, row or column; [] without labels, or if all are numbers."""
+    n_dimensions, labels = getattr(values, "ndim", None), None
+    if dims := getattr(values, "dims", ()):  # of xarray
+        labels = values.indexes.get(dims[-1])
+    elif n_dimensions is not None:  # of pandas or polars
+        labels = getattr(values, "index" if n_dimensions == 1 else "columns", None)
+    labels = [] if labels is None or callable(labels) else [*labels]
+    return [] if all(isinstance(label, Number) for label in labels) else labels
 
 
 def _find_indices_of_name(source: KernelSource, name: str) -> list[int]:

@@ -48,7 +48,7 @@ class Columns(Sequence[Mapping[str, Any]]):
 
     def __init__(self, columns: Mapping[str, Column], n: int) -> None:
         self.columns, self.n = columns, n
-        self.omitted_names: dict[int, list[str]] = {}  # names that are left out, by run
+        self.omitted_values: dict[int, dict[str, Any]] = {}  # values that are left out, by run and name
 
     def __len__(self) -> int:
         """Return the number of runs."""
@@ -59,23 +59,23 @@ class Columns(Sequence[Mapping[str, Any]]):
         run_index = range(self.n)[key]
         if isinstance(run_index, range):
             return [self[i] for i in run_index]
-        omitted_names = self.omitted_names.get(run_index, ())
+        omitted_values = self.omitted_values.get(run_index, ())
         return {
             name: _get_value_of_run(column, run_index)
             for name, column in self.columns.items()
-            if name not in omitted_names
+            if name not in omitted_values
         }
 
     def collect_nonfinite_values(self) -> dict[int, BadValueError]:
         """Return an error for each run with values that are NaN or infinite, by index in rising order.
 
-        The names of these values are recorded in `omitted_names`, and readers of the columns skip them. The columns
+        These values are recorded in `omitted_values`, and readers of the columns skip them. The columns
         stay.
         """
         errors: dict[int, BadValueError] = {}
         for name, column in self.columns.items():
             for i in _find_nonfinite_runs(column, self.n):
-                self.omitted_names.setdefault(i, []).append(name)
+                self.omitted_values.setdefault(i, {})[name] = _get_value_of_run(column, i)
                 errors.setdefault(i, BadValueError(f"{name}: {_get_value_of_run(column, i)} is not a finite number"))
         return dict(sorted(errors.items()))
 
@@ -101,18 +101,21 @@ def _is_not_finite(x: Any) -> bool:
     return isinstance(x, FLOATS) and not math.isfinite(x)
 
 
-def read_parameter_sets(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
-    """Return a parameter mapping for each run, and errors of runs with NaN or infinite values, by index.
+def read_parameter_sets(
+    parameters: ParameterSets,
+) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError], dict[int, dict[str, Any]]]:
+    """Return a parameter mapping for each run; errors of runs with NaN or infinite values, and these values, by index.
 
     `parameters`: a mapping for every run; or {address: one value, or one for every run}, also as a structured array or
     a pandas table. Values that are not finite are left out of the mappings. A single run is not tested. Raises
     BadValueError if there are no runs or all have such values.
     """
     parameter_sets, errors = _convert_to_parameter_sets(parameters), dict[int, BadValueError]()
+    nonfinite_values: dict[int, dict[str, Any]] = {}
     if not parameter_sets:
         raise BadValueError("parameters is empty: expected at least one run", hint="a mapping, or {address: values}")
     if isinstance(parameter_sets, Columns):
-        errors = parameter_sets.collect_nonfinite_values()
+        errors, nonfinite_values = parameter_sets.collect_nonfinite_values(), parameter_sets.omitted_values
     elif len(parameter_sets) > 1:
         floats = [x for parameter_set in parameter_sets for x in parameter_set.values() if isinstance(x, FLOATS)]
         for i, parameter_set in enumerate(() if all(map(math.isfinite, floats)) else parameter_sets):
@@ -120,12 +123,13 @@ def read_parameter_sets(parameters: ParameterSets) -> tuple[Sequence[Mapping[str
                 errors[i] = BadValueError(
                     f"{nonfinite_names[0]}: {parameter_set[nonfinite_names[0]]} is not a finite number"
                 )
+                nonfinite_values[i] = {name: parameter_set[name] for name in nonfinite_names}
                 parameter_sets[i] = {
                     name: value for name, value in parameter_set.items() if name not in nonfinite_names
                 }
     if len(errors) == len(parameter_sets):
         raise BadValueError(f"parameters: {errors[0]}")
-    return parameter_sets, errors
+    return parameter_sets, errors, nonfinite_values
 
 
 def read_given_parameters_of_runs(
@@ -179,7 +183,7 @@ def read_runs_with_equal_names(
         if numbers is None:
             return None
         given_values[:, k], mask[:, k] = numbers, True
-    for i, names in parameter_sets.omitted_names.items():
+    for i, names in parameter_sets.omitted_values.items():
         omitted_indices = [
             k for k, name in zip(parameter_indices, parameter_sets.columns, strict=True) if name in names
         ]

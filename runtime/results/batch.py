@@ -320,18 +320,15 @@ def make_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
 
 
 def check_series_names(source: KernelSource, names: str | Iterable[str], argument_name: str = "names") -> list[str]:
-    """Return the names of series as a list without repetitions, in their order.
+    """Return the names of series as a list, in their order.
 
     `names` is one name or several, "t" among them; `argument_name` names the argument in errors. Raises
-    UnknownNameError with the nearest name.
+    UnknownNameError with the nearest name, BadValueError for a name that is given twice.
     """
-    unique_names, empty_result = (
-        list(dict.fromkeys(check_names(names, argument_name, "a list of names of series"))),
-        make_empty_result(source),
-    )
-    for name in unique_names:
+    checked, empty_result = check_names(names, argument_name, "a list of names of series"), make_empty_result(source)
+    for name in checked:
         empty_result.unit(name)
-    return unique_names
+    return checked
 
 
 def find_evaluation_fields(source: KernelSource, names: Iterable[str]) -> frozenset[str]:

@@ -34,11 +34,10 @@ from gudgeon.integrators.reusable_run import N_ROWS, ReusableRun
 from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.argument_checks import check_flag, check_text, is_integer
 from gudgeon.language.quantities import has_names
-from gudgeon.model.arrays import as_c_array
 from gudgeon.model.baumgarte import has_baumgarte_terms
 from gudgeon.model.compiled import Array
 from gudgeon.model.evaluation import check_sample_memory
-from gudgeon.model.parameter_columns import ParameterColumns, check_parameter_arguments
+from gudgeon.model.parameter_columns import ParameterColumns, check_parameter_arguments, read_values_in_order
 from gudgeon.model.parameters import insert_space_before_unit
 from gudgeon.results.batch import check_series_names
 from gudgeon.simulation.arguments import (
@@ -84,6 +83,7 @@ class RunSetup:
     @staticmethod
     def from_arguments(
         simulation: Simulation,
+        names_argument: str,
         names: str | Iterable[str],
         series: str | Iterable[str],
         fixed: Mapping[str, float | str] | None,
@@ -91,8 +91,8 @@ class RunSetup:
     ) -> RunSetup:
         """Check the arguments and build the setup. Raises InputError.
 
-        `names`: of the parameters that each run sets; `series`: names of the series that it returns. `settings`:
-        method, rtol, step, stop and audit; the method is chosen by select_method.
+        `names`: of the parameters that each run sets, from the argument `names_argument`; `series`: names of the series
+        that it returns. `settings`: method, rtol, step, stop and audit; the method is chosen by select_method.
 
         Waits until the optimized library of the scene is compiled. `fixed` None: no fixed parameters.
         """
@@ -102,7 +102,7 @@ class RunSetup:
         )
         source = scene.source
         method = select_method(source, settings["method"], step is not None)
-        checked_names, constants = check_parameter_arguments(names, fixed)
+        checked_names, constants = check_parameter_arguments(names, fixed, names_argument)
         scene.compiled.lib.wait_for_optimized_library()
         return RunSetup(
             scene,
@@ -183,6 +183,7 @@ class PreparedRun:
         names = ("method", "rtol", "step", "stop", "audit")
         setup = self._setup = RunSetup.from_arguments(
             simulation,
+            "parameters",
             arguments["parameters"],
             arguments["series"],
             arguments["fixed"],
@@ -242,7 +243,7 @@ class PreparedRun:
         Raises ArrayError for another shape or type. For one run it raises InputError for values that violate a
         condition of the file, AssemblyError for a start that does not close, SolverError and AuditError.
         """
-        x = as_c_array(values, "values")
+        x = read_values_in_order(values, self.parameters, "values")
         if x.shape == self._shape:
             with self._lock:
                 return self._run_single(x)

@@ -75,14 +75,14 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
     for given_state in start:  # it may be long: an error ends the loop at the first wrong entry
         given_states.append(given_state if isinstance(given_state, State) else copy_checked_state(source, given_state))
     states = _copy_similar_states(source, given_states) or [copy_checked_state(source, x) for x in given_states]
-    if len(states) != n_runs and 1 not in (n_runs, len(states)) or not states:
+    if n_runs not in (1, len(states)) or not states:
         message = f"start has {format_count(len(states), 'state')} for {format_count(n_runs, 'run')}"
         raise BadValueError(message, hint="one state, or one for every run")
     times = sorted({state.t for state in states})
     if len(times) > 1:
         message = f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch start at one time"
         raise BadValueError(message, hint="states at the same time, or a batch for each time")
-    return states * n_runs if len(states) == 1 else states
+    return states
 
 
 def _copy_similar_states(source: KernelSource, given_states: list[Any]) -> list[State]:

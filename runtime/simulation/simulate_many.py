@@ -199,7 +199,8 @@ class _BatchOptions:
 class _Starts:
     """Hold the parameter values (n_runs, n_parameters), start states and notes of all runs.
 
-    `failures`: errors of runs with invalid parameters, by index. Without states, runs begin at t = 0.
+    `failures`: errors of runs with invalid parameters, by index. `nonfinite_values`: values {name: value} of these runs
+    that are NaN or infinite, which are not in the others. Without states, runs begin at t = 0.
     """
 
     def __init__(
@@ -211,7 +212,7 @@ class _Starts:
         contours: dict[str, Array],
     ) -> None:
         self.compiled, self.contours = simulation.compiled, contours
-        rows, self.failures = read_parameter_sets(parameters)
+        rows, self.failures, self.nonfinite_values = read_parameter_sets(parameters)
         count = next((len(contour) for contour in contours.values() if contour.ndim == 2), len(rows))
         if count != len(rows) and len(rows) > 1:
             hint = "one contour, or one for every run"
@@ -234,6 +235,21 @@ class _Starts:
         self.given: Array
         self.is_given: Any
         self.given, self.is_given = uniform_values or read_parameters_of_runs(rows, self._merge_parameters)
+
+    def collect_given_values(self, p: Array) -> dict[str, Array]:
+        """Return the values (n_runs,) that runs were given, NaN and infinite ones too, by address; choices as names.
+
+        `p` (n_runs, …): parameter values of the runs.
+        """
+        source = self.compiled.source
+        p, is_given = (p.copy(), self.is_given.copy()) if self.nonfinite_values else (p, self.is_given)
+        for i, values in self.nonfinite_values.items():
+            for name, value in values.items():
+                address = name if name in source.parameter_indices else f"parameters.{name}"
+                k = source.parameter_indices.get(address)
+                if k is not None and not source.parameters[k].words:
+                    p[i, k], is_given[i, k] = value, True
+        return collect_given_values(source, p, is_given)
 
     def _merge_parameters(self, i: int, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
         """Return values and mask (n_parameters,) of the parameters that are given for run i, and append its notes.
@@ -461,7 +477,7 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         states=states,
         samples=arrays["done"] - times.n_skipped * (arrays["done"] > 1),
         t_last=arrays["t_last"],
-        parameters=collect_given_values(source, arrays["p"], results.starts.is_given),
+        parameters=results.starts.collect_given_values(arrays["p"]),
         impacts=runs.list_contacts(),
         events=runs.list_events(),
         peaks=build_peak_records(arrays["peaks"][:, :joints], runs.contacts, np.diff(runs.first_contact_indices)),

@@ -31,6 +31,7 @@ from gudgeon.integrators.reusable_run import N_ROWS
 from gudgeon.language.argument_checks import check_number
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array
+from gudgeon.model.parameter_columns import read_values_in_order
 from gudgeon.model.parameters import compute_parameter_values, read_given_parameters
 from gudgeon.results.state import State, make_state
 from gudgeon.simulation.arguments import MIN_DURATION_S, MIN_ROUNDINGS, compute_output_times
@@ -63,6 +64,7 @@ class Stepper:
         names = ("method", "rtol", "step", "stop", "audit")
         setup = self._setup = RunSetup.from_arguments(
             simulation,
+            "inputs",
             arguments["inputs"],
             arguments["series"],
             arguments["fixed"],
@@ -202,7 +204,8 @@ class Stepper:
 
     def _check_inputs(self, inputs: ArrayLike | None) -> Array:
         """Return the inputs as an array (n_inputs,); for None, an empty array. Raises ArrayError."""
-        return as_c_array(() if inputs is None else inputs, "inputs", (len(self._setup.names),))
+        x = read_values_in_order(() if inputs is None else inputs, self._setup.names, "inputs")
+        return as_c_array(x, "inputs", (len(self._setup.names),))
 
     def _check_reset(self) -> None:
         """Raise BadValueError if the stepper has not been reset, or its last reset failed."""

@@ -278,8 +278,6 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
                 else "write contour: 128 into its play"
             )
             raise UnknownNameError(f"{joint} has no contour that wear could deepen", hint=hint)
-    if len(set(names)) < len(names):
-        raise BadValueError(f"joints is {shorten_value(list(names))}: expected different names", hint="name each once")
     return names
 
 

@@ -83,7 +83,7 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
     source, (columns, at_once) = gudgeon.load("nine_bar_press", "dry").source, COLUMNS[name]
     whole = {key: one.tolist() if isinstance(one, np.ndarray) and one.ndim else one for key, one in columns.items()}
     every = [{key: one[i] if isinstance(one, list) else one for key, one in whole.items()} for i in range(3)]
-    (rows, bad), (plain, plain_bad) = read_parameter_sets(columns), read_parameter_sets(every)
+    (rows, bad, _), (plain, plain_bad, _) = read_parameter_sets(columns), read_parameter_sets(every)
     assert isinstance(rows, Columns) and isinstance(plain, list) and len(rows) == 3
     assert [*rows] == plain and rows[-1] == plain[2] and rows[1:] == plain[1:]
     assert [(i, str(error)) for i, error in bad.items()] == [(i, str(error)) for i, error in plain_bad.items()]

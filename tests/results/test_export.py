@@ -43,7 +43,7 @@ def test_a_data_frame_has_every_series_over_t_with_its_unit(run: Result) -> None
 
 def test_a_data_frame_of_some_series_is_the_readers_own(run: Result) -> None:
     pytest.importorskip("pandas")
-    table = run.to_dataframe(["lift", "S9.y", "lift"])
+    table = run.to_dataframe(["lift", "S9.y"])
     assert list(table.columns) == ["lift", "S9.y"]
     before = run["S9.y"].copy()
     table.loc[:, "S9.y"] = 0.0

@@ -16,6 +16,7 @@ h5py = pytest.importorskip("h5py")
 
 from gudgeon.contract.kernel_source import STORED_NAMES  # noqa: E402
 from gudgeon.errors import InputError  # noqa: E402
+from gudgeon.results.files.hdf5 import CHECKSUM_BYTES  # noqa: E402
 from gudgeon.results.results import Result, read  # noqa: E402
 from tests.results.old_results import save_old  # noqa: E402
 from tests.slow import slow_rows_but  # noqa: E402
@@ -47,6 +48,36 @@ def test_a_flipped_bit_is_told_wherever_it_is(path: Path) -> None:
         path.write_bytes(damaged)
         with pytest.raises(InputError, match="damaged"):
             read(path)
+
+
+def test_a_damaged_checksum_is_refused(run: Result, path: Path) -> None:
+    """A cut or changed last line, and bytes after it: the data are then not checked by anything."""
+    data = path.read_bytes()
+    assert data[-CHECKSUM_BYTES:].startswith(b"\ngudgeon crc32 ")
+    damaged = [data[:-k] for k in range(1, CHECKSUM_BYTES)] + [data + b"x", data + b"\nseen\n", data + data[-24:]]
+    for k in range(1, CHECKSUM_BYTES + 1):
+        changed = bytearray(data)
+        changed[-k] ^= 1
+        damaged.append(bytes(changed))
+    for contents in damaged:
+        path.write_bytes(contents)
+        with pytest.raises(InputError, match="its checksum does not match"):
+            read(path)
+
+
+@pytest.mark.parametrize("version", ["earliest", "v108", "latest"])
+def test_files_that_other_programs_wrote_have_no_checksum(version: str, run: Result, path: Path) -> None:
+    """They end with their HDF5 data, whatever the version of the superblock."""
+    other = path.with_name("other.nc")
+    with h5py.File(path) as file, h5py.File(other, "w", libver=version) as copy:
+        for key, value in file.attrs.items():
+            copy.attrs[key] = value
+        for name in file:
+            file.copy(name, copy)
+    np.testing.assert_array_equal(read(other)["A.F"], run["A.F"])
+    other.write_bytes(other.read_bytes() + b"x")
+    with pytest.raises(InputError, match="its checksum does not match"):
+        read(other)
 
 
 def test_holes_and_moved_blocks_are_told(path: Path) -> None:

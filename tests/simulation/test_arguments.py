@@ -26,7 +26,7 @@ pytestmark = needs_compiler
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rtol": "x"}, "rtol is 'x': expected a number from 1e-14 to 1"),
+        ({"rtol": "x"}, "rtol is 'x': expected a number from 1e-14 to less than 1"),
         ({"rtol": float("nan")}, "expected a number from"),
         ({"rtol": 1e-16}, "smaller tolerances are below rounding errors"),
         ({"rtol": 2.0}, "expected a number from"),
@@ -229,3 +229,42 @@ def test_columns_of_what_is_no_number(column: Any) -> None:
 def test_what_is_one(value: Any) -> None:
     run = gudgeon.load("pendulum").simulate(0.01, output=1, parameters={"g": value})
     assert run.parameters["g"] == float(value)
+
+
+def calls_with_names(names: Any) -> list[tuple[str, Any]]:
+    """Return each argument that takes names of series or parameters, with a call that passes `names` to it."""
+    pendulum = gudgeon.load("pendulum")
+    runs = {"g": [1.0, 2.0]}
+    return [
+        ("parameters", lambda: pendulum.prepare(names, "bob.x", t_end=0.1)),
+        ("inputs", lambda: pendulum.stepper(names, "bob.x")),
+        ("series", lambda: pendulum.prepare("g", names, t_end=0.1)),
+        ("series", lambda: pendulum.stepper("g", names)),
+        ("peaks", lambda: pendulum.prepare("g", "bob.x", t_end=0.1, peaks=names)),
+        ("peaks", lambda: pendulum.simulate(0.1, peaks=names)),
+        ("peaks", lambda: pendulum.simulate_many(runs, 0.1, peaks=names)),
+        ("keep", lambda: pendulum.simulate_many(runs, 0.1, keep=names)),
+        ("names", lambda: pendulum.simulate(0.1).to_dataframe(names)),
+        ("names", lambda: pendulum.simulate_many(runs, 0.1).to_dataframe(names)),
+    ]
+
+
+def test_names_in_sets_are_refused() -> None:
+    """A set has no order, but the order of names is that of values and series."""
+    for names in ({"g", "length"}, frozenset(["bob.x"])):
+        for argument, call in calls_with_names(names):
+            with pytest.raises(BadValueError, match=rf"^{argument} is .*set.*a set has no order\n.*sorted\("):
+                call()
+
+
+def test_repeated_names_are_refused() -> None:
+    for argument, call in calls_with_names(["bob.x", "bob.y", "bob.x"]):
+        with pytest.raises(BadValueError, match=f"^{argument}: 'bob.x' is given twice\n"):
+            call()
+    with pytest.raises(BadValueError, match=r"^inputs: 'g' is given twice\n  give it once, in inputs or in fixed"):
+        gudgeon.load("pendulum").stepper("g", "bob.x", fixed={"g": 1.0})
+
+
+def test_stored_series_may_be_exported_by_name() -> None:
+    batch = gudgeon.load("pendulum").simulate_many({"g": [1.0, 2.0]}, 0.1, output=3, keep=["bob.x"])
+    assert (batch.to_xarray(["bob.x"])["bob.x"].to_numpy() == batch["bob.x"]).all()

@@ -60,3 +60,12 @@ def test_many_parameters(count: int, tmp_path: Path) -> None:
     assert batch["total"][:, -1].tolist() == [USED * 1.0, USED * 2.0]
     batch.save(tmp_path / "batch.nc")
     assert Batch.load(tmp_path / "batch.nc")["total"].tobytes() == batch["total"].tobytes()
+
+
+@pytest.mark.parametrize("odd", [float("nan"), float("inf")])
+def test_parameters_of_a_batch_are_those_given(odd: float) -> None:
+    """Those that are not finite too, as columns and as mappings."""
+    for given in ({"g": [1.0, odd, 2.0]}, [{"g": 1.0}, {"g": odd}, {"g": 2.0}]):
+        batch = gudgeon.load("pendulum").simulate_many(given, 0.1, output=3)
+        np.testing.assert_array_equal(batch.parameters["parameters.g"], [1.0, odd, 2.0])
+        assert [failure.run for failure in batch.failures] == [1]

@@ -92,6 +92,7 @@ def test_numbers_that_a_state_does_not_fit_fail_their_run() -> None:
     ("starts", "message"),
     [
         (lambda: begun()[:2], "start has 2 states for 3 runs"),
+        (lambda: begun()[:1], "start has 1 state for 3 runs"),
         (lambda: [*begun()[:2], replace(begun()[2], t=0.1)], "start at one time"),
         (lambda: [], "start has 0 states"),
         (lambda: [1.0, 2.0, 3.0], "start is a float: expected a State"),

@@ -409,3 +409,41 @@ def test_all_kinds_of_series_are_those_of_simulate() -> None:
     for c in (3e-4, 4e-4, 3e-4):
         run = sim.simulate(0.004, output=7, parameters={"c": c}, peaks=())
         assert prepared([c]).tobytes() == rows(run, prepared.series, 8).tobytes()
+
+
+def test_tables_with_labels_are_read_by_name() -> None:
+    """In any order of the labels; other labels are refused with a remedy that works."""
+    pandas = pytest.importorskip("pandas", reason="its tables have labels")
+    names = ["g", "length"]
+    pendulum = gudgeon.load("pendulum")
+    prepared, stepper = pendulum.prepare(names, "bob.x", t_end=0.1, output=3), pendulum.stepper(names, "bob.x")
+    table = pandas.DataFrame({"length": [1.0, 3.0], "g": [2.0, 9.81]})
+    ordered = prepared([[2.0, 1.0], [9.81, 3.0]]).tobytes()
+    for values in (table, table[names], table[names].to_numpy(), [row for _, row in table.iterrows()]):
+        assert prepared(values).tobytes() == ordered
+    assert prepared(pandas.DataFrame(table[names].to_numpy())).tobytes() == ordered  # columns 0 and 1
+    assert prepared(table.iloc[0]).tobytes() == prepared([2.0, 1.0]).tobytes()
+    assert stepper.reset(table.iloc[0]).tobytes() == stepper.reset([2.0, 1.0]).tobytes()
+    for unordered in (table.assign(mass=1.0), table.assign(mass=1.0).iloc[0]):
+        with pytest.raises(ArrayError, match="values has the labels .*length.* expected g, length") as caught:
+            prepared(unordered)
+        remedy = str(caught.value).splitlines()[-1].strip()
+        assert remedy == "values[['g', 'length']].to_numpy()"
+        assert prepared(eval(remedy, {"values": unordered})).tobytes() in (ordered, prepared([2.0, 1.0]).tobytes())
+    renamed = table[names].rename(columns={"g": "gravity"})
+    with pytest.raises(ArrayError, match=r"rename the labels, or .*: values\.to_numpy\(\)"):
+        prepared(renamed)
+    assert prepared(renamed.to_numpy()).tobytes() == ordered
+    with pytest.raises(ArrayError, match="inputs has the labels"):
+        stepper.reset(renamed.iloc[0])
+
+
+def test_arrays_of_xarray_are_read_by_name() -> None:
+    xarray = pytest.importorskip("xarray", reason="its arrays have labels")
+    prepared = gudgeon.load("pendulum").prepare(["g", "length"], "bob.x", t_end=0.1, output=3)
+    values = xarray.DataArray([[1.0, 2.0, 7.0]], dims=["run", "name"], coords={"name": ["length", "g", "mass"]})
+    expected = prepared([[2.0, 1.0]]).tobytes()
+    assert prepared(values[:, :2]).tobytes() == prepared(values[:, [1, 0]].drop_vars("name")).tobytes() == expected
+    with pytest.raises(ArrayError, match="has the labels") as caught:
+        prepared(values)
+    assert prepared(eval(str(caught.value).splitlines()[-1], {"values": values})).tobytes() == expected

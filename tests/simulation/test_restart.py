@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -56,3 +57,13 @@ def test_a_scene_without_lengths_continues_from_its_state(tmp_path: Path) -> Non
     run = rail.simulate(0.8, output=8, rtol=1e-10)
     assert rail.prepare(series=["m.x"], t_end=0.8, output=8, rtol=1e-10)(np.zeros(0))[0].tolist() == run["m.x"].tolist()
     assert rail.prepare(["bodies.m.mass"], ["m.x"], 0.8, output=8, rtol=1e-10)([1.0])[0].tolist() == run["m.x"].tolist()
+
+
+def test_a_corrected_start_has_one_note() -> None:
+    """The constraint equations hold from the first step on: no note says that the results are not meaningful."""
+    pendulum = gudgeon.load("pendulum")
+    start = replace(pendulum.simulate(0.1, output=5).final, q=np.array([0.5, -0.9, 0.0]))
+    run = pendulum.simulate(0.2, output=3, start=start)
+    (note,) = run.diagnostics.notes
+    assert "violates constraint equations rod.length (0.03 m)" in note
+    np.testing.assert_allclose(np.hypot(run["bob.x"], run["bob.y"])[1:], 1.0, atol=1e-14)

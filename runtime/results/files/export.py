@@ -68,18 +68,18 @@ KEYWORDS = frozenset(
 
 
 def list_requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
-    """Return the names of the series to export, without t and without repetitions; all for None.
+    """Return the names of the series to export, without t; all for None.
 
-    Raises UnknownNameError for an unknown name, BadValueError for a text instead of a list.
+    Raises UnknownNameError for an unknown name, BadValueError for a text instead of a list and for a repeated name.
     """
     if names is None:
         return list(run.names)
     if isinstance(names, str):
         raise_bad_value("names", names, "a list of names of series")
-    unique_names = list(dict.fromkeys(check_names(names, "names", "a list of names of series")))
-    for name in unique_names:
+    checked = check_names(names, "names", "a list of names of series")
+    for name in checked:
         run.unit(name)
-    return [name for name in unique_names if name != "t"]
+    return [name for name in checked if name != "t"]
 
 
 def build_dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
@@ -134,7 +134,7 @@ def _import_pandas() -> Any:
 
 
 def _select_batch_series(batch: Batch, names: Iterable[str] | None) -> list[str]:
-    """Return the names of the series of a batch to export, without t and repetitions; None selects all."""
+    """Return the names of the series of a batch to export, without t; None selects all."""
     available_names = batch.kept if batch.states is None else get_catalogue(batch.source)
     return [
         name for name in (available_names if names is None else check_series_names(batch.source, names)) if name != "t"

@@ -4,8 +4,8 @@ HDF5 never writes to a file itself: a full disk would leave it with handles that
 exit. It lays out the metadata (about 70 kB) and the offsets of the arrays; the arrays go straight to the file. The
 layout runs in a separate thread, where no signal reaches Python, since Ctrl-C within its calls would be lost.
 
-The last line of a file is a checksum after the end of the HDF5 data. A program that changes the file drops it; damage
-to the file does not.
+The last line of a file is a checksum after the end of the HDF5 data. A program that changes the file drops it, and
+the file then ends where the HDF5 data do. Damage leaves other bytes there.
 """
 
 from __future__ import annotations
@@ -37,6 +37,9 @@ MAX_COMPACT_BYTES = 60_000  # of a compact attribute; longer ones are stored in 
 PAGE_BYTES = 4096
 CHECKSUM_LINE = b"\ngudgeon crc32 %08x\n"
 CHECKSUM_BYTES = len(CHECKSUM_LINE % 0)
+SIGNATURE = b"\x89HDF\r\n\x1a\n"
+# offset of the end-of-file address in a superblock, by its version (HDF5 File Format Specification, section II.A)
+END_ADDRESS_OFFSETS = {0: 40, 1: 44, 2: 28, 3: 28}
 
 
 @dataclass(frozen=True)
@@ -119,20 +122,25 @@ def write_tables(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
 
 
 def is_damaged(path: Path) -> bool:
-    """Return whether the checksum of a file does not match; False for a file without a checksum."""
+    """Return whether anything but a matching checksum follows the HDF5 data of a file, which must be an HDF5 file.
+
+    False for a file that ends with its HDF5 data: another program wrote it. False also where the data do not begin at
+    the first byte, and for a file of another kind; HDF5 reads or refuses these.
+    """
     with open(path, "rb") as file:
-        size = file.seek(0, io.SEEK_END) - CHECKSUM_BYTES
-        if size <= 0:
+        head = file.read(64)
+        offset = END_ADDRESS_OFFSETS.get(head[len(SIGNATURE)]) if len(head) > len(SIGNATURE) else None
+        if not head.startswith(SIGNATURE) or offset is None:
             return False
-        file.seek(size)
-        stored_checksum, checksum = file.read(), 0
-        if not stored_checksum.startswith(CHECKSUM_LINE.partition(b"%")[0]):
+        size = int.from_bytes(head[offset : offset + 8], "little")
+        if file.seek(0, io.SEEK_END) <= size:  # HDF5 refuses a file that is shorter
             return False
         file.seek(0)
+        checksum = 0
         while size > 0 and (chunk := file.read(min(size, 1 << 20))):
             checksum = zlib.crc32(chunk, checksum)
             size -= len(chunk)
-        return stored_checksum != CHECKSUM_LINE % checksum
+        return file.read(CHECKSUM_BYTES + 1) != CHECKSUM_LINE % checksum
 
 
 class _FileImage(io.RawIOBase):

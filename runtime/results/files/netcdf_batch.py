@@ -183,7 +183,7 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
             variables[column] = dimensions, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
     for k, name in enumerate(() if source.massless_bodies or not batch.states else ("drives", "forces", "clearances")):
         variables[f"work.{name}"] = dimensions, batch.work[:, :, k], {"units": "J"}
-    names = [*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)]
+    names = [*dict.fromkeys([*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)])]
     return variables | {
         name_series_column(name): (dimensions, values) for name, values in collect_series(batch, names).items()
     }
