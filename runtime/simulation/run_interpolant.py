@@ -203,8 +203,7 @@ class RunInterpolant:
     def _evaluate_states(self, steps: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
         """Return the Evaluation of the equations at K states, and a mask (K,) of the states where they can be solved.
 
-        The Evaluation is NaN at the other states. Times just after a jump are moved before it for expressions that
-        depend on the side. A state that fails is removed, and the rest is evaluated again.
+        The Evaluation is NaN at the other states. A state that fails is removed, and the rest is evaluated again.
         """
         is_solvable = np.asarray(np.isfinite(steps.q).all(axis=1) & np.isfinite(steps.v).all(axis=1))
         t = steps.t
