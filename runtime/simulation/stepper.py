@@ -28,13 +28,12 @@ from gudgeon.contract.boundary import (
 )
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.reusable_run import N_ROWS
-from gudgeon.language.argument_checks import check_number
 from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_columns import read_values_in_order
 from gudgeon.model.parameters import compute_parameter_values, read_given_parameters
 from gudgeon.results.state import State, make_state
-from gudgeon.simulation.arguments import MIN_DURATION_S, MIN_ROUNDINGS, compute_output_times
+from gudgeon.simulation.arguments import MIN_DURATION_S, MIN_ROUNDINGS, compute_output_times, parse_seconds
 from gudgeon.simulation.prepared_run import RunSetup
 from gudgeon.simulation.restart import (
     MAX_VIOLATION,
@@ -155,15 +154,17 @@ class Stepper:
             self._x, self._is_reset = x.copy(), True
             return values
 
-    def step(self, dt: float, inputs: ArrayLike | None = None) -> Array:
-        """Integrate over dt (s) with these inputs and return the series (n_series,) at the end.
+    def step(self, dt: float | str, inputs: ArrayLike | None = None) -> Array:
+        """Integrate over dt with these inputs and return the series (n_series,) at the end.
 
-        `inputs` (n_inputs,): parameter values in SI that are held over the step; None: those of the step before. If an
+        `dt`: s, or a text such as "1 ms". `inputs` (n_inputs,): parameter values in SI that are held over the step; None: those of the step before. If an
         event of the file ends the run, `ended` is true and `t` is the time of the event; a further step continues from
         there. After an error the state is that before the step. Raises BadValueError for dt and before the first reset,
         InputError for values, AssemblyError for inputs that do not fit the state, SolverError and AuditError.
         """
-        dt = dt if type(dt) is float else check_number(dt, "dt")
+        dt = dt if type(dt) is float else parse_seconds("dt", dt)
+        if not dt > 0.0:
+            raise BadValueError(f"dt is {dt:g} s: expected a positive time")
         with self._lock:
             self._check_reset()
             x, t = self._x if inputs is None else self._check_inputs(inputs), self._t + dt
