@@ -157,10 +157,11 @@ class Stepper:
     def step(self, dt: float | str, inputs: ArrayLike | None = None) -> Array:
         """Integrate over dt with these inputs and return the series (n_series,) at the end.
 
-        `dt`: s, or a text such as "1 ms". `inputs` (n_inputs,): parameter values in SI that are held over the step; None: those of the step before. If an
-        event of the file ends the run, `ended` is true and `t` is the time of the event; a further step continues from
-        there. After an error the state is that before the step. Raises BadValueError for dt and before the first reset,
-        InputError for values, AssemblyError for inputs that do not fit the state, SolverError and AuditError.
+        `dt`: s, or a text such as "1 ms". `inputs` (n_inputs,): parameter values in SI that are held over the step;
+        None: those of the step before. If an event of the file ends the run, `ended` is true and `t` is the time of the
+        event; a further step continues from there. After an error the state is that before the step. Raises
+        BadValueError for dt and before the first reset, InputError for values, AssemblyError for inputs that do not fit
+        the state, SolverError and AuditError.
         """
         dt = dt if type(dt) is float else parse_seconds("dt", dt)
         if not dt > 0.0:
