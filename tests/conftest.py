@@ -156,6 +156,9 @@ class FakeCompiled:
     calls: list[int] = field(default_factory=list)
     may_drive_acceleration_jump: bool = False
 
+    def prepare(self, given: Any, is_given: Any) -> Any:
+        return np.where(is_given, given, 0.0)
+
     def evaluate_motion_series(self, series: MotionSeries, counts: Any, columns: Any, p: Any) -> Any:
         x, y = (sign * p[k] if k >= 0 else 0.0 for k, sign in ((series.x, series.sign_x), (series.y, series.sign_y)))
         arms: tuple[Any, Any, Any] = (complex(x, y), 0.0, 0.0)

@@ -12,6 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import UnknownNameError
+from gudgeon.model.baumgarte import select_motion_values
 from gudgeon.model.evaluation import FIELD_NAMES
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import EvaluatedSamples, Result
@@ -77,8 +78,9 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
 def test_parts_that_nobody_wanted_have_no_row(batch: Batch) -> None:
     run = batch.partial(0)
     assert run is not None and run.compiled is not None
+    p = select_motion_values(run.compiled, run.diagnostics.method, run.p)
     for parts in (frozenset[str](), {"a"}, {"clearance", "drift"}, {"reactions"}):
-        found = run.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p, field_names=parts)
+        found = run.compiled.evaluate(run.t, run.q, run.v, run.memory, p, field_names=parts)
         whole = run.evaluation
         for name in FIELD_NAMES:
             values = getattr(found, name)
