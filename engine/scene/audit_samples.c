@@ -77,6 +77,8 @@ int has_drive_jump(double t, double interval, const double *q, const double *v, 
 
 /* W: smaller powers are products of underflowing numbers. */
 #define MIN_POWER 1e-250
+/* s, of differences along v: velocities that need longer for a motion of 1e-5 sizes are rounding errors of rest */
+#define MAX_AUDIT_INTERVAL 1e3
 
 /*
  * Audit n samples (runtime/simulation/audit.py). relative_errors (n, 4), each relative to the largest term:
@@ -118,7 +120,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             max_speed[angle] = max_of(max_speed[angle], fabs(v[k]));
             max_coordinate[angle] = max_of(max_coordinate[angle], fabs(q[k]));
         }
-        const double h = rate > 0.0 ? 1e-5 / rate : 0.0;
+        const double h = rate > 0.0 ? fmin(1e-5 / rate, MAX_AUDIT_INTERVAL) : 0.0;
         for (int branch = 0; branch < 2; branch++) {
             for (int k = 0; k < N_Q; k++)
                 near[branch][k] = q[k] + (branch ? h : -h) * v[k];
