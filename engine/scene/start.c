@@ -13,6 +13,17 @@
 #define MIN_START_INERTIA 1e-9 /* of m size^2: smallest moment of inertia in the norm (sizes.py) */
 #define MIN_DISTANCE_REDUCTION 1e-5 /* smallest relative difference of distances for a nearer configuration */
 
+/* Return a new workspace, which free() releases, or NULL if memory is short. size: of the mechanism, m. */
+static StartWorkspace *allocate_start_workspace(double size, Cancellation *cancellation)
+{
+    StartWorkspace *workspace = calloc(1, sizeof(StartWorkspace));
+    if (workspace) {
+        workspace->size = size;
+        workspace->cancellation = cancellation;
+    }
+    return workspace;
+}
+
 /*
  * Return the radius in m that bounds the search for a start: the maximum of the mechanism's size, |x| and |y| of all
  * positions in q, and the length residuals at q. workspace->residual is overwritten.
@@ -233,11 +244,9 @@ int compute_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
 {
     const Parameters *p = (const Parameters *)parameters;
-    StartWorkspace *workspace = GUESSED_POINTS ? NULL : calloc(1, sizeof(StartWorkspace));
+    StartWorkspace *workspace = GUESSED_POINTS ? NULL : allocate_start_workspace(size, cancellation);
     if (!workspace)
         return 1;
-    workspace->size = size;
-    workspace->cancellation = cancellation;
     int status = initialize_guess(workspace, t, p, q) || solve_closure(workspace, t, p, q);
     if (!status && compute_change_from_guess(workspace, q) < 1.0)
         select_nearest_start(workspace, t, p, q);
@@ -276,12 +285,10 @@ int gudgeon_close(double t, const double *parameters, double size, double radius
 {
     const Parameters *p = (const Parameters *)parameters;
     Cancellation no_cancellation = {0};
-    StartWorkspace *workspace = calloc(1, sizeof(StartWorkspace));
+    StartWorkspace *workspace = allocate_start_workspace(size, &no_cancellation);
     if (!workspace)
         return DEPENDENT_EQUATIONS;
-    workspace->size = size;
     workspace->radius = radius;
-    workspace->cancellation = &no_cancellation;
     initialize_start_workspace(workspace, p);
     const int status = solve_independent_angles(workspace, t, p, q) ? DEPENDENT_EQUATIONS
         : solve_closure(workspace, t, p, q);
@@ -310,11 +317,9 @@ int gudgeon_continuation(double t, const double *parameters, double size, double
 {
     const Parameters *p = (const Parameters *)parameters;
     Cancellation no_cancellation = {0};
-    StartWorkspace *workspace = calloc(1, sizeof(StartWorkspace));
+    StartWorkspace *workspace = allocate_start_workspace(size, &no_cancellation);
     if (!workspace)
         return 1;
-    workspace->size = size;
-    workspace->cancellation = &no_cancellation;
     workspace->dependent = 1;
     initialize_start_workspace(workspace, p);
     workspace->radius = compute_search_radius(workspace, t, p, q);
