@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.model.cached_values import cache_by_values
-from gudgeon.model.parameters import GAINS
+from gudgeon.model.parameters import find_gain_indices
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -36,7 +36,7 @@ def select_motion_values(compiled: CompiledModel, method: str, p: Array) -> Arra
 def _find_gain_values(compiled: CompiledModel) -> NDArray[np.intp]:
     """Return the indices of the values of p that are Baumgarte's gains or are derived from them."""
     source = compiled.source
-    indices = [source.parameter_indices[name] for name in GAINS if name in source.parameter_indices]
+    indices = find_gain_indices(source)
     values = np.zeros((2, len(source.parameters)))
     is_given = np.zeros(values.shape, bool)
     values[1, indices], is_given[:, indices] = 1.0, True

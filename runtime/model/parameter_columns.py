@@ -23,7 +23,7 @@ from gudgeon.language.argument_checks import check_mapping, check_names, shorten
 from gudgeon.model.arrays import FLAG, as_c_array, set_struct_pointers
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.file_expressions import describe_undefined_part, list_possibly_undefined_expressions
-from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
+from gudgeon.model.parameters import collect_conditions, find_gain_indices, read_given_parameters
 
 UNLABELLED_TYPES = {float, int, np.float64, list, tuple, np.ndarray}  # of rows and values without labels
 MAX_DOUBLE, MIN_NORMAL = sys.float_info.max, sys.float_info.min
@@ -50,9 +50,7 @@ class ParameterColumns:
         source = self.source = compiled.source
         self.compiled, self.names, self.fixed = compiled, names, fixed
         _, is_given = read_given_parameters(source, dict.fromkeys(names, 1.0) | dict(fixed))
-        gains = [
-            source.parameter_indices[name] for name in GAINS if name in source.parameter_indices and not keeps_gains
-        ]
+        gains = [] if keeps_gains else find_gain_indices(source)
         values, is_fixed = read_given_parameters(source, fixed)
         self._given = np.stack([values, values])  # rows: of the run, and of its motion
         self._is_given = np.stack([is_given, is_given]).astype(FLAG)

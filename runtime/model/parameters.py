@@ -275,7 +275,7 @@ def compute_run_values(compiled: CompiledModel, given_values: Array, is_given: N
     source, shape = compiled.source, (2, len(given_values))
     pair, masks, values = np.empty(shape), np.empty(shape, FLAG), np.empty((2, compiled.n_p))
     pair[:], masks[:] = given_values, is_given
-    for k in _find_gain_indices(source):
+    for k in find_gain_indices(source):
         pair[1, k], masks[1, k] = 0.0, 1
     compiled.prepare_runs_in_place(pair, masks, values)
     if not has_valid_values(source, values[0], is_given):
@@ -294,12 +294,12 @@ def compute_values_without_baumgarte(
     given_values, is_given: (n_parameters,) or (n, n_parameters); they are not changed.
     """
     if given_values.ndim == 2:
-        return compiled.prepare_parameters_of_runs(given_values, is_given, _find_gain_indices(compiled.source))
+        return compiled.prepare_parameters_of_runs(given_values, is_given, find_gain_indices(compiled.source))
     return _prepare_run(compiled, given_values, is_given)[1].copy()
 
 
 @cache_by_values
-def _find_gain_indices(source: KernelSource) -> list[int]:
+def find_gain_indices(source: KernelSource) -> list[int]:
     """Return the indices of the parameters that are Baumgarte gains; the list must not be changed."""
     return [source.parameter_indices[name] for name in GAINS if name in source.parameter_indices]
 

@@ -30,7 +30,7 @@ from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import MAX_STEP_FRACTION, T_END, estimate_default_step
 from gudgeon.model.file_expressions import list_possibly_undefined_expressions
-from gudgeon.model.parameters import GAINS, compute_parameter_values, list_conditions
+from gudgeon.model.parameters import compute_parameter_values, find_gain_indices, list_conditions
 from gudgeon.model.sizes import find_size_indices
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
@@ -47,7 +47,6 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
     scene has no default step.
     """
     source = compiled.source
-    parameter_indices = {parameter.address: k for k, parameter in enumerate(source.parameters)}
     values = {
         "mechanism": source.mechanism,
         "scene": source.scene,
@@ -67,7 +66,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
             for item in list_possibly_undefined_expressions(source)
         ],
         "divides": sorted(DIVIDING),
-        "gains": [parameter_indices[name] for name in GAINS if name in parameter_indices],
+        "gains": find_gain_indices(source),
         "methods": _list_page_methods(source),
         "begins": _select_first_page_method(source),
         "stiff": select_stiff_method(source, RTOL),
